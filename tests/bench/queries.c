@@ -1,6 +1,6 @@
 /*
- * Queries of query/relume-rays.h: their answers compared with tests of all triangles, and their rates with Embree's. A
- * separate program: the command never links Embree.
+ * Queries of verbs/query/relume-rays.h: their answers compared with tests of all triangles, and their rates with
+ * Embree's. A separate program: the command never links Embree.
  *
  * usage: queries [--count N] [--seed N] [--rates 0] [--device NAME] [--models DIR] [--json FILE] [--command TEXT]
  *

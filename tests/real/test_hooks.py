@@ -43,7 +43,7 @@ def differing(a, b, channels="RGB", most=0.0):
 plain = picture("plain", wanted=("R", "G", "B", "gl.R", "gl.G", "gl.B", "Z", "id"))
 
 # A hook that returns the built-in's colour.
-repeat = ROOT / "hooks/repeat.cl"
+repeat = ROOT / "corpus/hooks/repeat.cl"
 for name, options in (("repeat", ()), ("mirrors", ("--look", MIRRORS)), ("path", ("--mode", "path", "--aov", "gl"))):
     picture(name, *options, wanted=None)
     picture(f"{name}_hook", *options, "--hook", repeat, wanted=None)

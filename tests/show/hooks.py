@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""tests/show/hooks.py BUILD (as `make show-hooks`): the examples of corpus/hooks/ rendered, the cost of a hook that repeats
-the built-in code, and the error messages for wrong hooks.
+"""tests/show/hooks.py BUILD (as `make show-hooks`): the examples of corpus/hooks/ rendered, the cost of a hook that
+repeats the built-in code, and the error messages for wrong hooks.
 
 Pictures are left as PNG in BUILD/show/hooks for inspection. Times are processor time of whole commands: medians of runs
 that alternate with and without the hook, after one run of each to compile kernels.
@@ -98,8 +98,8 @@ class Show:
         run(self.build / "relume", "render", self.traces[program], "-o", out, *look_file(self.work, options))
 
     def examples(self):
-        found = {path.stem for path in (ROOT / "hooks").glob("*.cl")}
-        self.row("examples of hooks/ rendered here", len(found & EXAMPLES.keys()),
+        found = {path.stem for path in (ROOT / "corpus/hooks").glob("*.cl")}
+        self.row("examples of corpus/hooks/ rendered here", len(found & EXAMPLES.keys()),
                  len(found | EXAMPLES.keys()), found == EXAMPLES.keys())
         for name, (program, *options) in EXAMPLES.items():
             rules = ROOT / f"corpus/hooks/{name}.look.yaml"

@@ -4,8 +4,8 @@ of the sweep.
 
 Each program is recorded again with reference frames read back in the program. `apitrace dump` must read the trace to
 its end, and glretrace must draw the last frame exactly as the program did. glretrace gets a visual like the program's
-(verbs/recording/visual.c); if its window is larger (because a viewport reached beyond the program's), only the program's
-part is compared. Programs that do not start here are listed and not counted.
+(verbs/recording/visual.c); if its window is larger (because a viewport reached beyond the program's), only the
+program's part is compared. Programs that do not start here are listed and not counted.
 """
 import argparse
 import json

@@ -1,4 +1,4 @@
-/* Helpers of the truth tests for scenes built by hand (render/check/made.h). */
+/* Helpers of the truth tests for scenes built by hand (verbs/render/check/made.h). */
 #pragma once
 
 #include <check.h>

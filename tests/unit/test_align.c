@@ -1,5 +1,5 @@
-/* bisect/align: the regions between hunks agree, and short scripts are minimal. */
-#include "bisect/align.h"
+/* verbs/bisect/align: the regions between hunks agree, and short scripts are minimal. */
+#include "verbs/bisect/align.h"
 
 #include <stdlib.h>
 

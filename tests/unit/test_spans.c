@@ -1,4 +1,4 @@
-/* farm/spans: frame numbers as text. */
+/* verbs/farm/spans: frame numbers as text. */
 #include <stdlib.h>
 #include <string.h>
 
