@@ -8,7 +8,7 @@
 /* Below: an offset in a buffer object, or a number in a pointer's clothes. Above: an address in the program. */
 #define LEAST_ADDRESS 0x10000
 
-enum { MOST_NAMES = 65536 /* of one glGenLists */ };
+enum { MOST_NAMES = 65536 /* most names of one glGenLists */ };
 
 /* --- Which arguments are names ----------------------------------------------------------------------------------- */
 

@@ -20,7 +20,7 @@
 #include "verbs/film/matroska.h"
 #include "verbs/film/rate.h"
 
-#define LONGEST_S 2.0 /* that a frame stands: what a program did longer, like loading, is cut */
+#define LONGEST_S 2.0 /* longest time that a frame is shown: longer pauses, such as loading, are cut */
 #define POSTER_QUALITY 90
 
 struct asked {

@@ -5,7 +5,7 @@
 #include "verbs/film/filter_weights.h"
 #include "verbs/film/rows.h"
 
-#define INNER_LEAST 0.1f   /* of filter_same_surface, for pixels that lie within a surface */
+#define INNER_LEAST 0.1f   /* least filter_same_surface for pixels inside a surface */
 #define WINDOW 3u          /* pixels to each side */
 #define MOST_PAIRS 128u
 #define QUANTILE 0.6f      /* which of the pairs is looked at; and the same quantile of a normal variable's square */

@@ -9,7 +9,7 @@
 #include "verbs/film/rows.h"
 
 #define PASSES 5u
-#define GLOSS_PASSES 2u    /* what mirrors show has edges that no guide knows */
+#define GLOSS_PASSES 2u    /* mirror images have edges that no guide has */
 #define SIGMA_LIGHT 1.8f   /* as many standard deviations of the noise */
 
 struct pass {

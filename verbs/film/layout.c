@@ -5,7 +5,7 @@
 
 #define WIPE_S 6.0      /* there and back */
 #define ALTERNATE_S 3.0 /* both once */
-#define GAP 4u          /* black columns between pictures that stand side by side */
+#define GAP 4u          /* black columns between pictures side by side */
 
 const char *const layout_names[N_LAYOUTS + 1] = { "side", "wipe", "alternate", "traced", "raster", NULL };
 

@@ -1,4 +1,5 @@
-/* Failures of frames that have the same reason: the first is told at once, all of them at the end, with their range. */
+/* Groups frames that fail for the same reason: the first is reported at once, all of them at the end, with their
+ * range. */
 #pragma once
 
 #include <stddef.h>
@@ -10,7 +11,7 @@ struct alike {
 	size_t n;
 };
 
-/** A frame failed. The first one of its text is reported: "frame 7: TEXT". */
+/** A frame failed. Its text is reported at once if no earlier frame had the same: "frame 7: TEXT". */
 void alike_note(struct alike *a, uint64_t frame, const char *text);
 
 /** Report texts that several frames had, "frames 7-19, 21: TEXT", and forget all. */

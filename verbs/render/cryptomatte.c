@@ -37,7 +37,7 @@ static uint32_t murmur(const char *name)
 			block = 0;
 		}
 	}
-	h ^= mix_block(block); /* of the rest; 0 changes nothing */
+	h ^= mix_block(block); /* the remaining bytes; 0 changes nothing */
 	h ^= (uint32_t)n;
 	h = (h ^ h >> 16) * 0x85ebca6bu;
 	h = (h ^ h >> 13) * 0xc2b2ae35u;
@@ -82,7 +82,7 @@ static void name_object(const struct scene *scene, enum kind kind, uint32_t draw
 
 /* --- Channels ---------------------------------------------------------------------------------------------------- */
 
-/* What a layer knows of each draw number, and its manifest. */
+/* A layer's data for each draw number, and its manifest. */
 struct layer {
 	uint32_t *numbers;  /* [n_draws + 1]; 0: not met yet, or nothing */
 	struct table named; /* by number: those that the manifest has */

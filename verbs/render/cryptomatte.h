@@ -1,7 +1,7 @@
 /*
  * Cryptomatte: which draw, mesh and texture each pixel shows, as compositors read it (J. Friedman and A. Jones, "Fully
- * automatic ID mattes with support for motion blur and transparency", 2015; specification 1.2.0). A pixel's own object
- * is that of its centre, as in channel id, and covers it whole.
+ * automatic ID mattes with support for motion blur and transparency", 2015; specification 1.2.0). A pixel belongs
+ * wholly to the object at its centre, as in channel id.
  */
 #pragma once
 
@@ -13,7 +13,7 @@
  * their attributes with the manifest.
  *
  * Draws are named "draw 12" by their number in the frame, meshes and textures by their hashes as `relume scene --json`
- * prints them: these are the same from frame to frame. What has no texture is "untextured".
+ * prints them: these are the same from frame to frame. Draws without a texture are "untextured".
  *
  * @param img  with channel id, whole
  * @return 0 or ERR_SYSTEM (reported)

@@ -42,7 +42,7 @@ static int is_there(const struct pipeline_state *state, uint64_t frame)
 	       stamp_check(&state->p->stamp, settings_recorded_frame(state->p->settings, frame), path) == STAMP_SAME;
 }
 
-/* What replay has met so far is known, should this process end before the report. */
+/* Keep what the replay has met so far, in case this process ends before the report. */
 static void note_lacks(const struct pipeline *p)
 {
 	const struct replay_count *counts;

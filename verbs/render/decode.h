@@ -1,4 +1,4 @@
-/* The thread that plays the recording and hands out pictures to be made. */
+/* The thread that plays the recording and hands out pictures to render. */
 #pragma once
 
 #include "verbs/render/pipeline_state.h"

@@ -73,10 +73,10 @@ struct known {
 	size_t number;
 	int is_known;            /* there is an outcome */
 	struct outcome outcome;
-	struct check_result checked[N_DEVICE_FAMILIES]; /* of this run, with --check */
+	struct check_result checked[N_DEVICE_FAMILIES]; /* results of this run, with --check */
 };
 
-/* The family that it renders with; -1: none is right. */
+/* The family used for rendering; -1: none is right. */
 static int family_of(const struct known *k)
 {
 	return k->is_known ? outcome_best(&k->outcome, device_type_family(k->device->type)) :
@@ -184,7 +184,7 @@ static void print_row(const struct known *k, int family)
 
 /* --- Checking ---------------------------------------------------------------------------------------------------- */
 
-/* Packets compute in vectors: compilers for GPUs take minutes for them, and GPUs gain nothing by them. */
+/* Packets use vector types, which GPU compilers take minutes for, and which do not help GPUs. */
 static int is_for(const struct device_description *device, enum device_family family)
 {
 	return device->type == DEVICE_CPU || family != FAMILY_PACKETS;
@@ -207,8 +207,8 @@ static int check_one(const struct asked *o, const struct check_truth *truth, str
 	return err;
 }
 
-/* Check a device, and keep the outcome. @return 0; ERR_FAILED: a family is not right; ERR_SYSTEM (reported): none is,
- * or nothing was found out */
+/* Check a device, and keep the outcome. @return 0; ERR_FAILED: a family is not right; ERR_SYSTEM (reported): none
+ * is, or there was no result */
 static int check_device(const struct asked *o, const struct check_truth *truth, const char *folder, struct known *k)
 {
 	int err = 0, n_right = 0, n_sound = 0; /* sound: right or passed over */

@@ -40,7 +40,7 @@ static int wait_for(pid_t worker, const sigset_t *awaited)
 	return status;
 }
 
-/* After a worker's end: return where another one is to start. */
+/* After a worker's end: return if another one is to start. */
 static void end_or_go_on(struct guard *guard, int status)
 {
 	if (WIFSIGNALED(status) && guard->journal.fault.kind == FAULT_NONE)

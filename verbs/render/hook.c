@@ -65,7 +65,7 @@ static const struct options_table table = {
 	.words_use = CONFINE_READS,
 };
 
-/* What the process that tries the hook shares with the one that waits. */
+/* State shared by the process that tries the hook and the one that waits. */
 struct trial {
 	const struct hook *hook;
 	const char *device;
@@ -73,7 +73,7 @@ struct trial {
 	int step, err;
 };
 
-/* Whole numbers that are 0 where no rule says otherwise turn things on: all of them as 1. @return how many */
+/* Integer parameters that default to 0 are switches: set all of them to 1. @return their number */
 static uint32_t turn_on(const struct hook *hook, struct scene_parameter list[HOOK_MAX_PARAMETERS])
 {
 	uint32_t n = 0;

@@ -1,5 +1,5 @@
-/* Studying a recording: it is replayed without pixels, frame by frame, into look/study; what its rules name is fetched
- * with them. */
+/* Studying a recording: it is replayed without pixels, frame by frame, into look/study; scenes that its rules name
+ * are fetched with them. */
 #pragma once
 
 #include "base/frames.h"
@@ -8,8 +8,8 @@ struct look;
 struct replay;
 
 /**
- * Study a recording, and have its rules.
- * @param frames  to be studied; evenly spread ones of these where they are too many
+ * Study a recording, and get its rules.
+ * @param frames  to study; if there are too many, evenly spread ones of these
  * @param look    receives the rules; rules_free
  * @return 0 or ERR_* (reported)
  */
@@ -17,8 +17,8 @@ int look_study(const char *trace, const struct frame_list *frames, struct look *
 
 /**
  * Fetch the scenes that rules `unseen` name; a frame that is not there is left out.
- * @param replay  with who renders for it (replay_set_supplier): without, pixels that these frames read back would be
- * missing in later ones
+ * @param replay  with a supplier of pixels (replay_set_supplier); otherwise later frames lack the pixels that these
+ * read back
  * @param look    NULL: nothing to do
  * @return 0 or ERR_* (reported)
  */

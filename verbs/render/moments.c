@@ -5,7 +5,7 @@
 
 #include "base/err.h"
 
-#define SNAP 1e-6 /* of the time between two frames: so near a moment is the frame */
+#define SNAP 1e-6 /* share of the time between two frames: a moment this close to a frame is that frame */
 #define MOST_PICTURES 1e9
 
 /* Seconds of frames, by the clock or at a rate that is not 0. @return 0 or ERR_* (reported) */

@@ -9,10 +9,10 @@
 #include "replay/replay.h"
 
 struct moments {
-	double fps;       /* pictures a second; 0: each shows a frame and has its number */
-	double shutter;   /* how long it is open, of the time from a picture to the next; 0: for a moment */
+	double fps;       /* pictures per second; 0: each picture shows a frame and has its number */
+	double shutter;   /* how long it is open, as a share of the time from one picture to the next; 0: an instant */
 	uint64_t first;   /* frame of the recording */
-	uint64_t n;       /* frames from there on; none before and behind them is looked at */
+	uint64_t n;       /* number of frames from there on; no others are used */
 	uint64_t first_ns; /* with fps: when the first ended; 0: not known */
 	double *seconds;  /* with fps, [n]: when frames ended, from 0 on; owned */
 	uint64_t count;   /* with fps: pictures */
@@ -21,11 +21,11 @@ struct moments {
 /**
  * Pictures at a rate of their own.
  * @param m             shutter is there
- * @param frames        one run of frames; empty: all
+ * @param frames        a contiguous range of frames; empty: all
  * @param end           frames that the recording has
  * @param recorded_fps  0: the clock counts
- * @return 0; ERR_USAGE (reported): no run of frames, or too many pictures; ERR_INPUT (reported): the recording has no
- *         clock, or it runs backwards; ERR_SYSTEM (reported)
+ * @return 0; ERR_USAGE (reported): no contiguous range, or too many pictures; ERR_INPUT (reported): the recording has
+ *         no clock, or it runs backwards; ERR_SYSTEM (reported)
  */
 int moments_make(struct moments *m, struct replay *replay, const char *trace, const struct frame_list *frames,
                  uint64_t end, double fps, double recorded_fps);
@@ -34,7 +34,7 @@ void moments_free(struct moments *m);
 /**
  * The moment of a picture, or one before or after it.
  * @param after  share of the time from a picture to the next, from then on
- * @param at     [0,1), how far behind *frame; 0 where that is the last one
+ * @param at     [0,1), how far after *frame; 0 if that is the last one
  */
 void moments_at(const struct moments *m, uint64_t picture, double after, uint64_t *frame, double *at);
 

@@ -14,7 +14,7 @@
 #include "verbs/render/seen.h"
 #include "verbs/render/vectors.h"
 
-/* What gate N (diff/score/harm.c) wants to know of a frame. changed: the scene under the rules */
+/* Note facts about a frame for gate N (diff/score/harm.c). changed: the scene with the rules applied */
 static int tell_harm(const struct spare *found, const struct scene *scene, const struct scene *changed,
                      struct image *img)
 {
@@ -36,7 +36,7 @@ static int tell_harm(const struct spare *found, const struct scene *scene, const
 	return err;
 }
 
-/* What the report's page of roles and lights shows (diff/report/roles.h): an attribute each. */
+/* Facts for the report's page of roles and lights (diff/report/roles.h), an attribute each. */
 struct telling {
 	struct image *img;
 	unsigned n;
@@ -104,7 +104,7 @@ static int tell_time(const struct settings *settings, const struct shot *shot, c
 	               0;
 }
 
-/* With --fps: how far behind which frame a picture is, and how a scene between two of them was made. */
+/* With --fps: the frame before a picture, how far behind it the picture is, and how their scenes were interpolated. */
 static int tell_moment(const struct settings *settings, const struct shot *shot, const struct between *between,
                        struct image *img)
 {
@@ -152,7 +152,7 @@ static int add_vectors(const struct settings *settings, const struct shot *shot,
 struct exposure {
 	const struct settings *settings;
 	const struct shot *shot;
-	struct seen seen; /* of the last sample */
+	struct seen seen; /* for the last sample */
 };
 
 static int expose(void *user, double away, const struct scene **scene)

@@ -1,11 +1,12 @@
-/* One picture of a shot: under the rules, from the recorded camera or another, with attributes for reports. */
+/* Makes one picture of a shot: with the rules applied, from the recorded camera or another, with attributes for
+ * reports. */
 #pragma once
 
 #include "tracer/frame/trace.h"
 #include "verbs/render/settings.h"
 #include "verbs/render/shot.h"
 
-/* Told how many samples of a picture there are (tracer_options.sampled). */
+/* Called with the number of samples that a picture has so far (tracer_options.sampled). */
 struct picture_listener {
 	void (*sampled)(void *user, uint32_t done, uint32_t of);
 	void *user;

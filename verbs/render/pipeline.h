@@ -27,15 +27,15 @@ struct pipeline {
 	uint64_t end;            /* frames of the recording */
 	double start_s;          /* when the run began (progress_clock_s) */
 	struct stamp stamp;
-	struct carried *carried; /* filled in: what was done, for this process or the next */
-	uint64_t *shares;        /* [n_devices], filled in: frames that each traced; the caller frees it */
-	struct display *display; /* how display pictures are made; NULL: the files are OpenEXR */
-	const char *outcomes;    /* folder of what is known of devices' families; NULL: none */
-	const char *remembered;  /* the same for this run's faults; NULL also where a user's text may be to blame */
+	struct carried *carried; /* filled in: progress, for this process or the next */
+	uint64_t *shares;        /* [n_devices], filled in: frames that each device traced; the caller frees it */
+	struct display *display; /* how to make display pictures; NULL: the files are OpenEXR */
+	const char *outcomes;    /* folder of known outcomes of devices' families; NULL: none */
+	const char *remembered;  /* the same for this run's faults; also NULL if a user's hook may be to blame */
 };
 
 /**
  * Render the frames that the settings ask for.
- * @return 0, also where a signal ended the run early (watch_signal); ERR_INPUT, ERR_SYSTEM (reported)
+ * @return 0, also if a signal ended the run early (watch_signal); ERR_INPUT, ERR_SYSTEM (reported)
  */
 int pipeline_run(struct pipeline *p);

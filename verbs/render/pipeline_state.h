@@ -1,4 +1,4 @@
-/* What the threads of one pipeline share. */
+/* State that the threads of one pipeline share. */
 #pragma once
 
 #include <pthread.h>
@@ -16,30 +16,30 @@ struct pipeline_state {
 	struct pipeline *p;
 	struct blas_cache *cache; /* BLASes that the workers share; NULL: there is only one */
 	struct queue shots, pictures;
-	struct shared_scene *held; /* frames that pictures to come take, and their first; NULL: none yet */
+	struct shared_scene *held; /* frames for the pictures to come, and the first of these; NULL: none yet */
 	uint64_t held_frame;
-	pthread_mutex_t lock; /* of what follows, and of the progress */
+	pthread_mutex_t lock; /* guards what follows, and the progress */
 	atomic_int err;       /* the first failure */
 	int writer_said;      /* a writer has reported its failure */
 	struct worker *seats; /* [n_seats]; started as pictures need them */
 	size_t n_seats, n_started;
-	uint64_t decoded;     /* the frame that is, by its number in file names */
+	uint64_t decoded;     /* that frame's number in file names */
 	unsigned workers;     /* neither ended nor failed, started or not */
-	unsigned at_work;     /* of these, started */
+	unsigned at_work;     /* how many of these are started */
 	unsigned untraced;    /* pictures handed out and not yet traced */
 	unsigned in_flight;   /* pictures handed out and not yet on disk */
-	uint64_t frame_bytes; /* most memory that a frame in flight took so far; 0: not known yet */
-	uint64_t idle_bytes;  /* memory before the first frame */
+	uint64_t frame_bytes; /* most memory that a frame in flight has used so far; 0: not known yet */
+	uint64_t idle_bytes;  /* memory used before the first frame */
 	pthread_cond_t landed;
 	int begun; /* a picture was handed out */
-	struct alike alike;     /* why frames failed; under the lock */
+	struct alike alike;     /* reasons for failed frames; under the lock */
 };
 
 struct worker {
 	struct pipeline_state *state;
 	struct device *dev;
 	uint64_t done; /* frames that it traced */
-	struct tracer_undrawn undrawn; /* that its tracer had counted after the last frame */
+	struct tracer_undrawn undrawn; /* counts of its tracer after the last frame */
 	struct tracer_added added;     /* the same */
 	int seat;
 	pthread_t thread;
@@ -56,7 +56,7 @@ void pipeline_fail(struct pipeline_state *state, int err);
 
 void pipeline_drop_picture(struct picture **picture);
 
-/** A picture is done with, made or not. */
+/** A picture is finished, rendered or not. */
 void pipeline_land(struct pipeline_state *state);
 
 void pipeline_note(struct pipeline_state *state, uint64_t frame, const char *outcome, double seconds);

@@ -1,4 +1,4 @@
-/* A frame's picture while its samples still come in: a file that is always whole, made anew now and then. */
+/* Shows a frame's picture while its samples still come in: a file that is always complete, rewritten now and then. */
 #pragma once
 
 #include "tracer/image/image.h"
@@ -12,7 +12,7 @@ struct preview {
 /**
  * tracer_options.preview: write the file.
  * @param user  struct preview
- * @param img   denoised where the settings ask for it
+ * @param img   denoised if the settings ask for it
  * @return 0 or ERR_SYSTEM (reported)
  */
 int preview_show(void *user, struct image *img);

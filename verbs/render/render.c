@@ -27,7 +27,7 @@
 struct extent {
 	uint64_t end;   /* frames of the recording */
 	uint64_t total; /* frames to render */
-	int short_of;   /* 1: it is damaged, and frames behind the damage were asked for */
+	int short_of;   /* 1: it is damaged, and frames after the damage were asked for */
 };
 
 /* Check that the frames asked for are there; cut the list down to the chunk asked for. @return 1: the chunk holds no
@@ -106,7 +106,7 @@ static unsigned default_jobs(void)
 /* --- What frames lack -------------------------------------------------------------------------------------------- */
 
 struct missing {
-	struct replay_lack *lacks; /* of frames asked for, by the index */
+	struct replay_lack *lacks; /* for frames asked for, from the index */
 	long n;
 	int any; /* 1: these, or what only drawing has shown */
 };
@@ -209,7 +209,7 @@ static int open_devices(struct pipeline *p)
 	return err;
 }
 
-/* What killed processes have left. */
+/* Remove files that killed processes have left. */
 static void sweep(const struct settings *s, long gone)
 {
 	part_sweep(s->output);
@@ -260,7 +260,7 @@ static int render_frames(struct pipeline *p, uint64_t total, struct missing *mis
 	return err;
 }
 
-/* --look auto, between the files that were named before and behind it. */
+/* --look auto, between the files named before and after it. */
 static int look_from_study(struct settings *s)
 {
 	struct look *found = NULL;
@@ -357,7 +357,7 @@ int render_main(int argc, char **argv)
 		settings_free(&task.settings);
 		return err == 1 ? 0 : err ? -err : -ERR_SYSTEM;
 	}
-	/* Where no driver is called, nothing need be watched. */
+	/* Without calls of a driver, nothing needs watching. */
 	if (task.settings.dry_run || device_is_reference(task.settings.device))
 		return work(&task);
 	return guard_run(&task.carried->guard, work, &task);

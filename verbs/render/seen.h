@@ -1,5 +1,4 @@
-/* A moment's scene on the way to the tracer: under the rules, in a window of the size asked for, from the camera asked
- * for. */
+/* Prepares a moment's scene for the tracer: applies the rules, the size and the camera asked for. */
 #pragma once
 
 #include "look/between/between.h"
@@ -10,7 +9,7 @@
 
 struct seen {
 	const struct scene *recorded; /* as the program had it, or would have had it between two frames */
-	const struct scene *scene;    /* what is traced: one of these */
+	const struct scene *scene;    /* the scene to trace: one of these */
 	struct between between;
 	struct scene whole, changed;
 	struct spare found;

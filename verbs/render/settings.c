@@ -19,11 +19,11 @@
 #include "verbs/film/filter.h"
 #include "verbs/film/oidn.h"
 
-/* What an option decides about. A row that says nothing decides about the picture. */
+/* Effect of an option. A row that does not name one affects the picture. */
 enum effect {
 	PICTURE,      /* the picture, by its text */
 	PICTURE_FILE, /* the picture, by the content of the file it names */
-	RUN           /* which frames, where to, on what: never a pixel */
+	RUN           /* frames, files, devices: never a pixel */
 };
 
 const char *const settings_mode_names[] = { "whitted", "gl", "normals", "ao", "ao-phong", "diffuse", "path", NULL };
@@ -39,7 +39,7 @@ static int take_chunk(const struct options_row *row, const char *value, void *ou
 	return frame_chunk_parse(value, &s->chunk, &s->n_chunks);
 }
 
-/* 1 where a list's word is one of ours; then the flag is set. */
+/* 1 if a list's word is one of ours; then the flag is set. */
 static int take_word(const char *at, size_t length, const char *word, int *flag)
 {
 	const int is_it = length == strlen(word) && strncmp(at, word, length) == 0;
@@ -48,7 +48,7 @@ static int take_word(const char *at, size_t length, const char *word, int *flag)
 	return is_it;
 }
 
-/* The groups that are the tracer's; where there is none, it makes all. Cryptomatte comes from channel id, motion from
+/* The groups that the tracer makes; if there are none, it makes all. Cryptomatte comes from channel id, motion from
  * id and P. */
 static int take_aov(const struct options_row *row, const char *value, void *out)
 {
@@ -182,7 +182,7 @@ static int take_progress(const struct options_row *row, const char *value, void 
  * machines. */
 #define DRIVER_S 300
 
-/* Of a pixel; the default where sampling may stop earlier. */
+/* Most samples of a pixel; the default if sampling may stop earlier. */
 #define MOST_SAMPLES 65536
 
 /* --- The options ------------------------------------------------------------------------------------------------- */
@@ -424,7 +424,7 @@ static int name_settings(struct settings *s, const struct options_line *line)
 
 /* --- The command line -------------------------------------------------------------------------------------------- */
 
-/* The word of a list with commas behind the one at its head. */
+/* The next word of a comma-separated list. */
 static const char *next_word(const char *list)
 {
 	list += strcspn(list, ",");
@@ -458,7 +458,7 @@ static int check_denoised(struct settings *s)
 	return 0;
 }
 
-/* Whether what a camera needs is asked for, and nothing that it cannot have. */
+/* Check that the options a camera needs are given, and none that it cannot have. */
 static int check_camera(const struct settings *s)
 {
 	if (!s->camera)
@@ -476,7 +476,7 @@ int settings_resize(const struct settings *s)
 	return s->scale > 0 || s->size[0];
 }
 
-/* A window of the recorded size asks for nothing: its files are those without the option. */
+/* The recorded size changes nothing: the files are the same as without the option. */
 static void drop_scale(struct settings *s)
 {
 	s->scale = 0;
@@ -550,7 +550,7 @@ static int check_hook(struct settings *s)
 	                  mode == TRACER_DIFFUSE ? "ray_generation and intersection" : "hooks");
 }
 
-/* What kind of file is asked for, and whether the other options are for it. */
+/* Choose the kind of file, and check that the other options suit it. */
 static int choose_kind(struct settings *s)
 {
 	const int has_bounces = s->tracer.mode == TRACER_DIFFUSE || s->tracer.mode == TRACER_PATH;

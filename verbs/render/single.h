@@ -1,4 +1,4 @@
-/* One frame as GL drew it, rendered for a verb that asks what is where. */
+/* Renders one frame as GL drew it, for verbs that ask what a pixel shows. */
 #pragma once
 
 #include "replay/replay.h"
@@ -8,11 +8,11 @@
 
 /* All zero is empty. */
 struct single {
-	struct replay *replay; /* open; its caller plays it up to a frame */
+	struct replay *replay; /* open; the caller plays it up to a frame */
 	struct device *dev;
 	struct tracer *tracer;
 	struct supply supply;
-	struct scene *scene;   /* of that frame, which its caller puts here */
+	struct scene *scene;   /* that frame's scene; set by the caller */
 	struct image image;    /* and its picture */
 };
 
@@ -24,8 +24,7 @@ struct single {
  */
 int single_open(const char *trace, const char *device, struct single *single);
 
-/** Render the scene that is there in mode gl, one sample a pixel. @param aov  channel groups. @return 0 or ERR_SYSTEM
- * (reported) */
+/** Render the scene in mode gl, one sample a pixel. @param aov channel groups. @return 0 or ERR_SYSTEM (reported) */
 int single_render(struct single *single, const char *aov);
 
 /** Which draw a pixel of the picture shows, by channel id. @return its number; 0: none */

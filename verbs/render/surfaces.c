@@ -19,7 +19,7 @@
 #include "tracer/image/display.h"
 
 #define DATA_MARKER "/*DATA*/"
-#define SURFACE_BYTES 4096 /* of what is known of one */
+#define SURFACE_BYTES 4096 /* room for the facts about one */
 
 struct page {
 	const struct single *single;

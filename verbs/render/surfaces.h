@@ -5,7 +5,7 @@
 #include "verbs/render/single.h"
 
 /**
- * Write the page, one file that needs no other.
+ * Write the page, a self-contained file.
  * @param single  rendered with channel id
  * @param trace   the recording's name
  * @return 0 or ERR_SYSTEM (reported)

@@ -2,7 +2,7 @@
 
 #include <stdio.h>
 
-#define FEW 0.1 /* share of the pixels: where fewer show a difference, people ask what has happened */
+#define FEW 0.1 /* share of the pixels: if fewer show a difference, people wonder why */
 
 /* A share of all pixels, "12" or "0.3". */
 static void write_share(uint64_t part, uint64_t all, char text[16])

@@ -1,4 +1,4 @@
-/* The last lines of a run: what tracing added to OpenGL's picture, and how display pictures came out. */
+/* The last lines of a run: how far tracing changed OpenGL's picture, and how display pictures came out. */
 #pragma once
 
 #include "verbs/render/carried.h"

@@ -88,7 +88,7 @@ void vectors_free(struct vectors_frame **frame)
 
 /* --- Points ------------------------------------------------------------------------------------------------------ */
 
-/* A point of eye space on the picture: pixels from the left and from the top. @return 0: behind the viewer */
+/* Project a point of eye space onto the picture: pixels from the left and from the top. @return 0: behind the viewer */
 static int project(const struct placed *p, uint32_t height, const double eye[3], double out[2])
 {
 	const double at[4] = { eye[0], eye[1], eye[2], 1 };
@@ -102,7 +102,7 @@ static int project(const struct placed *p, uint32_t height, const double eye[3],
 	return 1;
 }
 
-/* What vectors_add works on. */
+/* Data of vectors_add. */
 struct work {
 	const struct scene *scene;
 	const struct vectors_frame *before;
@@ -154,7 +154,7 @@ static void cross(double out[3], const double a[3], const double b[3])
 		out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/* Where a point lies in a triangle, as weights of its corners. @return 0: beside it */
+/* A point's barycentric weights in a triangle. @return 0: it is outside */
 static int weigh(const double corner[3][3], const double point[3], double weight[3])
 {
 	double a[3], b[3], p[3], n[3], c[3], square;
@@ -176,7 +176,7 @@ static int weigh(const double corner[3][3], const double point[3], double weight
 	return weight[0] > -OFF_TRIANGLE && weight[1] > -OFF_TRIANGLE && weight[2] > -OFF_TRIANGLE;
 }
 
-/* The pixels that a triangle may lie on. @return 0: none */
+/* The pixels that a triangle may cover. @return 0: none */
 static int pixels_of(const struct work *w, const struct placed *p, const double corner[3][3], uint32_t low[2],
                      uint32_t end[2])
 {
@@ -215,7 +215,7 @@ static void place_corners(const struct placed *p, const uint32_t *index, double 
 	}
 }
 
-/* Pixels of a mesh whose vertices have moved: those that lie on a triangle go with it. */
+/* Pixels of a mesh whose vertices have moved: those on a triangle move with it. */
 static void follow_triangles(struct work *w, uint32_t i)
 {
 	const struct scene_mesh *mesh = w->scene->meshes[w->scene->instances[i].mesh];
@@ -248,7 +248,7 @@ static void follow_triangles(struct work *w, uint32_t i)
 
 /* --- All together ------------------------------------------------------------------------------------------------ */
 
-/* What each instance was in the frame before. */
+/* Match each instance with one of the previous frame. */
 static int match_all(struct work *w)
 {
 	uint32_t *found = malloc((w->scene->n_instances + (size_t)1) * sizeof(*found));

@@ -3,7 +3,7 @@
  * has moved since the frame before; it was at the pixel minus this. motion.A is 1 where that is known, else 0, and the
  * vector is 0.
  *
- * By nothing but what the recording has: a point goes back through its draw's modelview into its mesh, to that mesh's
+ * They come from the recording alone: a point goes back through its draw's modelview into its mesh, to that mesh's
  * place in the frame before, and through that draw's matrices onto the picture. The draw before is its partner
  * (look/followed.h); points of a mesh with other vertices are followed triangle by triangle. Draws without a partner,
  * and pixels that nothing drew, have no vector. What hid a point then does not count.
@@ -13,7 +13,7 @@
 #include "scene/scene.h"
 #include "tracer/image/image.h"
 
-/* Where everything was in a frame. */
+/* The positions of everything in a frame. */
 struct vectors_frame;
 
 /** Note a frame for the next one. @return NULL: out of memory (reported) */

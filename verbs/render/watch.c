@@ -101,7 +101,7 @@ static void look_at_times(struct watch *w)
 	pthread_mutex_unlock(&w->lock);
 }
 
-/* Running fewer frames at once does not help one that needs too much by itself. */
+/* Running fewer frames at once does not help a frame that alone needs too much. */
 static void look_at_memory(struct watch *w)
 {
 	uint64_t frame = 0, now = watch_memory();

@@ -1,11 +1,11 @@
 /*
- * What may end a frame, or the run, from outside: signals, the limits of time and memory. One thread watches
- * for all of them and interrupts devices (device_interrupt). A worker whose device was interrupted asks here why.
+ * Ends a frame or the run on signals and at the limits of time and memory. One thread watches all of these and
+ * interrupts devices (device_interrupt). A worker whose device was interrupted asks here why.
  *
  * The first SIGINT or SIGTERM stops the run: frames on devices are interrupted. A second one, or twenty seconds without
  * an end, removes unfinished files and ends the process at once, with 128 + the signal's number.
  *
- * A call of a driver that hangs ends the process, too; its parent starts another one (guard.h).
+ * A driver call that hangs also ends the process; its parent starts another one (guard.h).
  */
 #pragma once
 
@@ -28,7 +28,7 @@ struct watch_limits {
 
 /**
  * Start watching. Blocks both signals in the calling thread; threads started later inherit that: call it first.
- * @param guard  of this process: its parent passes signals on
+ * @param guard  of this process, whose parent passes signals on
  * @return 0 or ERR_SYSTEM (reported)
  */
 int watch_start(struct watch **out, const struct guard *guard, const struct watch_limits *limits);
@@ -48,7 +48,7 @@ void watch_give_up(struct watch *w);
 /** Add a device of the run. @return its seat, or -1: all are taken */
 int watch_add(struct watch *w, struct device *dev);
 
-/** A frame begins or ends on a seat. watch_end returns 1 where the frame ran out of time (and resumes the device). */
+/** A frame begins or ends on a seat. watch_end returns 1 if the frame ran out of time (and resumes the device). */
 void watch_begin(struct watch *w, int seat, uint64_t frame);
 int watch_end(struct watch *w, int seat);
 

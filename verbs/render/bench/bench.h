@@ -1,7 +1,7 @@
 /*
  * A fixed scene of about 250,000 triangles and rays to measure it with: camera rays of one picture, shadow rays from
- * what they hit to one point light, and short rays in all directions, as ambient occlusion sends them. `relume bench`
- * uses it, and so does the comparison with other tracers in tests/bench/.
+ * their hits to one point light, and short rays in all directions, as for ambient occlusion. `relume bench` and the
+ * comparison with other tracers in tests/bench/ use it.
  */
 #pragma once
 
@@ -14,12 +14,12 @@ struct bench_mesh {
 	float (*position)[4];
 	uint32_t (*index)[3];
 	uint32_t n_vertices, n_triangles;
-	char source[64]; /* what it is made of */
+	char source[64]; /* its source */
 };
 
 /**
- * Make the mesh: three bunnies, two cows, two spots and three teapots on a floor, read from OBJ files. Where a file
- * cannot be read, bumpy spheres stand in for all.
+ * Make the mesh: three bunnies, two cows, two spots and three teapots on a floor, read from OBJ files. If any file
+ * cannot be read, bumpy spheres replace them all.
  * @param models  folder of the OBJ files, or NULL
  * @return 0 or ERR_SYSTEM (reported)
  */
@@ -32,8 +32,8 @@ struct bench {
 	struct device *dev;
 	struct bench_mesh mesh;
 	uint32_t width, height;
-	struct view view; /* of the camera rays; pixels are numbered from the bottom row */
-	struct ray *rays[N_BENCH_RAY_KINDS]; /* eight consecutive ones belong to neighbouring pixels */
+	struct view view; /* view of the camera rays; pixels are numbered from the bottom row */
+	struct ray *rays[N_BENCH_RAY_KINDS]; /* eight consecutive rays belong to neighbouring pixels */
 	uint32_t n_rays[N_BENCH_RAY_KINDS];
 	double build_s; /* time to build the acceleration structure */
 
@@ -41,12 +41,12 @@ struct bench {
 };
 
 /**
- * Build the scene on a device, trace it once, and derive the other rays from what was hit.
+ * Build the scene on a device, trace it once, and derive the other rays from the hits.
  * @param dev     borrowed until bench_destroy
  * @return 0 or ERR_SYSTEM (reported)
  */
 int bench_create(struct device *dev, const char *models, uint32_t width, uint32_t height, struct bench **out);
-/** The same over the caller's mesh, in eye space. The bench owns it from now on, also after an error. */
+/** As bench_create, for the caller's mesh, in eye space. The bench takes ownership, also after an error. */
 int bench_create_of(struct device *dev, struct bench_mesh *mesh, uint32_t width, uint32_t height, struct bench **out);
 void bench_destroy(struct bench **bench);
 
@@ -67,9 +67,9 @@ int bench_count_ray_hits(struct bench *bench, enum kernel kernel, enum bench_ray
 
 /* A tree of the bench's mesh. */
 struct bench_tree {
-	double build_s, build_cpu_s, cost; /* build_cpu_s: of all processors together; cost: bvh_cost */
+	double build_s, build_cpu_s, cost; /* build_cpu_s: summed over all processors; cost: bvh_cost */
 	size_t n_items;       /* in all leaves */
-	size_t bytes;         /* of what the device's family of kernels walks */
+	size_t bytes;         /* size of the tree that the device's kernels traverse */
 };
 
 /** Build a tree of another kind and trace through it from now on. @return 0 or ERR_SYSTEM (reported) */

@@ -8,7 +8,7 @@
 
 enum { BUILD_S, BUILD_CPU_S, CAMERA_S, SHADOW_S, INCOHERENT_S, N_TIMES };
 
-/* What is measured of one kind; times are [n] each. */
+/* Measurements of one kind; times are [n] each. */
 struct row {
 	double *times[N_TIMES];
 	struct bench_tree tree;

@@ -1,4 +1,4 @@
-/* relume bench --accel: trees of every kind side by side. */
+/* relume bench --accel: compares acceleration structures. */
 #pragma once
 
 #include <stddef.h>
@@ -7,8 +7,8 @@
 
 /**
  * Build trees of several kinds over the bench's mesh and send its rays through each, in turn, n times. Print the
- * medians: time to build (by the clock, and of all processors together), SAH cost, items in leaves per triangle, memory
- * of what the device's kernels walk, and millions of camera, shadow and incoherent rays a second.
+ * medians: build time (elapsed, and summed over all processors), SAH cost, items in leaves per triangle, memory of the
+ * tree that the device's kernels traverse, and millions of camera, shadow and incoherent rays a second.
  *
  * @param kinds  bit 1 << enum accel_kind
  * @return 0 or ERR_SYSTEM (reported)

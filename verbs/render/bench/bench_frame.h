@@ -1,4 +1,4 @@
-/* relume bench TRACE: what each kernel of one frame takes. */
+/* relume bench TRACE: the time that each kernel of one frame takes. */
 #pragma once
 
 #include <stddef.h>
@@ -9,7 +9,7 @@
 
 struct look;
 
-/* What is rendered, and how often. */
+/* The frame to render, and how often. */
 struct bench_frame {
 	const char *trace;
 	uint64_t frame;

@@ -23,7 +23,7 @@ static const struct place places[] = {
 };
 #define N_PLACES (sizeof(places) / sizeof(places[0]))
 
-/* Where the camera stands, for eye space: above the floor, looking down at it. */
+/* The camera's position: above the floor, looking down at it. */
 #define EYE_HEIGHT 2.0f
 #define EYE_DISTANCE 5.6f
 #define EYE_PITCH_DEG 14.0f

@@ -115,7 +115,7 @@ static void transform_vertices(const struct bench *b)
 	}
 }
 
-/* What a frame with a new camera costs before its rays: vertices and top level, on the device. */
+/* The cost of a new camera before its rays: vertices and top level, on the device. */
 static int prepare_frame(struct bench *b)
 {
 	struct bench_state *s = b->state;
@@ -200,7 +200,7 @@ int bench_count_ray_hits(struct bench *b, enum kernel kernel, enum bench_ray_kin
 
 /* --- the rays that start where the picture was hit --------------------------------------------------------------- */
 
-/* Where a fragment lies, moved off the surface on the viewer's side, and the surface's normal. */
+/* The point of a fragment, moved off the surface towards the viewer, and the surface's normal. */
 static void hit_point(const struct bench *b, const struct fragment *f, float point[3], float normal[3])
 {
 	const uint32_t *index = b->mesh.index[FRAGMENT_PRIMITIVE(*f)];

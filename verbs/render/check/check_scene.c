@@ -77,7 +77,7 @@ static void blend(struct scene_material *m, uint32_t source, uint32_t destinatio
 	m->blend_dst_rgb = m->blend_dst_alpha = destination;
 }
 
-/* What all scenes have: two lights, a textured floor in fog, a wall. */
+/* Parts of all scenes: two lights, a textured floor in fog, a wall. */
 static void add_room(struct check_world *w, uint32_t *floor)
 {
 	struct made *m = &w->made;
@@ -187,7 +187,7 @@ static void add_glass(struct made *m, uint32_t rings)
 	made_add_square(m, pane, (float[3]){ 1.2f, 1.2f, -5.5f }, (float[3]){ 0.8f, 0, 0.6f }, up, 0.9f, 1);
 }
 
-/* What rules light anew: by the second light alone. */
+/* A material that rules relight, by the second light alone. */
 static void relight(struct scene_material *m)
 {
 	m->surface.relit = m->surface.light_first = m->surface.light_count = 1;

@@ -1,8 +1,8 @@
 /*
  * Scenes built by hand, without a recording: triangles in eye space, each with a draw of its own.
  *
- * Functions that add something return its index. Where memory or room is short they set made->err, and what they return
- * means nothing: look at it once, when all is added.
+ * Functions that add something return its index. If memory or room runs out they set made->err, and the index means
+ * nothing: check it once, when everything is added.
  */
 #pragma once
 
@@ -12,7 +12,7 @@
 
 #define MADE_MAX 16
 
-/* A scene that owns all it points to, beside textures. Not to be moved. */
+/* A scene that owns everything it points to except textures. Must not be moved. */
 struct made {
 	struct scene scene;
 	struct scene_instance instances[MADE_MAX];
@@ -28,13 +28,12 @@ struct made {
 
 /**
  * An empty frame, cleared to black.
- * @param tangent  of half the angle that the picture's width spans; 0: a parallel view, 2 units wide. Near is 1, far
- * 100
+ * @param tangent  of half the horizontal angle of view; 0: a parallel view, 2 units wide. Near is 1, far 100
  */
 void made_init(struct made *made, uint32_t width, uint32_t height, float tangent);
 void made_free(struct made *made);
 
-/** A matte material of this grey, lit by all lights that were added before. */
+/** A matte grey material, lit by all lights added before it. */
 uint32_t made_add_material(struct made *made, float diffuse);
 
 /** A white light. @param x,y,z,w  in eye space, homogeneous */
@@ -52,6 +51,6 @@ uint32_t made_add_triangles(struct made *made, uint32_t material, const float (*
 uint32_t made_add_square(struct made *made, uint32_t material, const float centre[3], const float u[3],
                          const float v[3], float r, uint32_t cells);
 
-/** A ball of so many rings and twice as many sectors. @param inside  1: turned inside out, to be seen from within */
+/** A ball of `rings` rings and twice as many sectors. @param inside 1: turned inside out, to be seen from within */
 uint32_t made_add_ball(struct made *made, uint32_t material, const float centre[3], float r, uint32_t rings,
                        int inside);
