@@ -72,7 +72,8 @@ check(made == {1, 2, 3, 4, 6}, f"torn, zeroed, empty, misplaced and missing fram
 check(lines[0] == {"event": "begin", "verb": "rendered", "total": 8} and lines[-1]["event"] == "end" and
       lines[-1]["skipped"] == 3, f"progress as JSON: {lines}")
 check(files() == whole, "the rendered frames have the same bytes again")
-check("made otherwise" in render("--skip-existing", "--dry-run", "--depth", "2").stdout, "other settings are noticed")
+check("it has other settings" in render("--skip-existing", "--dry-run", "--depth", "2").stdout,
+      "other settings are noticed")
 check("leave" not in render("--skip-existing", "--force", "--dry-run").stdout, "--force renders all")
 
 # Signals: the right exit code, no partial file, and a second run continues.

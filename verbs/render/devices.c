@@ -21,8 +21,8 @@ struct asked {
 
 static const struct options_row rows[] = {
 	{ "check", 0, NULL,
-	  "draw small scenes with every family of kernels, compare them with what the C twins draw, time them, and "
-	  "keep the outcome: 'relume render' goes by it",
+	  "draw small scenes with every family of kernels, compare them with the pictures of the C twins, time them, "
+	  "and keep the results, which 'relume render' uses",
 	  options_flag, .at = offsetof(struct asked, check) },
 	{ "device", 0, "NAME", "only this one, by number, type or part of the name (default: all)", options_text,
 	  .at = offsetof(struct asked, device) },
@@ -30,7 +30,7 @@ static const struct options_row rows[] = {
 	  "seconds that --check waits for a scene: a family that is not done then counts as wrong (default 300)",
 	  options_number, .at = offsetof(struct asked, seconds), .most = 86400 },
 	{ "cache", 0, "DIR",
-	  "where outcomes are kept, as for 'relume render' (default: relume/devices in $XDG_CACHE_HOME, or in "
+	  "folder for these results, as for 'relume render' (default: relume/devices in $XDG_CACHE_HOME, or in "
 	  "~/.cache)",
 	  options_text, .at = offsetof(struct asked, cache) },
 	{ "json", 0, NULL, "as JSON", options_flag, .at = offsetof(struct asked, json) },

@@ -33,7 +33,7 @@ static const struct options_row rows[] = {
 	  "Without -o nothing is studied",
 	  options_text, .at = offsetof(struct asked, sheet), .use = CONFINE_MAKES },
 	{ "device", 'd', "DEVICE",
-	  "of --sheet: a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference "
+	  "for --sheet: a number from 'relume devices', cpu, gpu, accelerator, part of a name, or reference "
 	  "(default: the first GPU, else CPU)",
 	  options_text, .at = offsetof(struct asked, device) },
 	{ OPTIONS_NO_SANDBOX },
@@ -44,9 +44,9 @@ static const struct options_table table = {
 	.head = "usage: relume look TRACE [-f FRAMES] -o FILE\n"
 		"       relume look TRACE [-f FRAME] --sheet FILE.html\n"
 		"\n"
-		"Study a recording, and write rules for relume render --look: where the camera is, what stands still, "
-	        "what tricks stand for\n"
-		"light, where lights are. Each rule has a confidence and a reason. Edit the file to overrule it: "
+		"Study a recording, and write rules for relume render --look: the camera, objects that never move, "
+	        "tricks that imitate light,\n"
+		"and lights. Each rule has a confidence and a reason. Edit the file to overrule it: "
 	        "'relume help look-file'.\n",
 	OPTIONS_ROWS(rows),
 	.takes = "one trace, and -o FILE or --sheet FILE.html",

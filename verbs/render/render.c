@@ -80,7 +80,7 @@ static int list_pictures(struct settings *s, struct replay *replay, struct exten
 /* Print what a real run would do. */
 static int rehearse(const struct settings *s, const struct stamp *stamp, uint64_t total)
 {
-	static const char *const words[] = { "render", "render, it is damaged", "render, it was made otherwise", "leave" };
+	static const char *const words[] = { "render", "render, it is damaged", "render, it has other settings", "leave" };
 	uint64_t frame = 0;
 
 	for (uint64_t i = 0; i < total && frame_list_next(&s->frames, frame, &frame); i++, frame++) {

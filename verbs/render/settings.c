@@ -202,8 +202,8 @@ static const struct options_row rows[] = {
 	  "a picture to look at",
 	  options_text, AT(output), .kind = RUN, .is_required = 1, .use = CONFINE_MAKES },
 	{ "preview", 0, "PATTERN",
-	  "where a frame's picture is shown while samples still come in: .exr, .png or .jpg, always whole, made anew "
-	  "each time their number has grown by half",
+	  "file that shows a frame's picture while samples still come in: .exr, .png or .jpg, always complete, "
+	  "rewritten each time their number has grown by half",
 	  options_text, AT(preview), .kind = RUN, .use = CONFINE_MAKES },
 	{ "skip-existing", 0, NULL, "leave out frames whose file is whole and of the same trace, settings and version",
 	  options_flag, AT(skip_existing), .kind = RUN },
@@ -245,9 +245,9 @@ static const struct options_row rows[] = {
 	  "attribute relume:samples, and another run may take more or fewer; with --noise, whichever stops first",
 	  take_seconds, AT(tracer.seconds) },
 	{ "denoise", 0, NULL,
-	  "take the noise out of each frame by itself; relume denoise does better where several frames are there",
+	  "denoise each frame separately; relume denoise does better if there are several frames",
 	  options_flag, AT(denoise) },
-	{ "oidn", 0, NULL, "--denoise by Intel's Open Image Denoise 2, where it is installed", options_flag, AT(oidn) },
+	{ "oidn", 0, NULL, "--denoise with Intel's Open Image Denoise 2, if it is installed", options_flag, AT(oidn) },
 	{ "rays", 0, "N",
 	  "rays of a sample: to each light that has a radius, and around each point in the ao modes (default 16)",
 	  options_number, AT(tracer.rays), .least = 1, .most = 4096 },
@@ -269,8 +269,8 @@ static const struct options_row rows[] = {
 	  "'relume hook --check' tries them; 'relume help hook-file' explains them",
 	  take_hook, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
 	{ "camera", 0, "FILE",
-	  "another camera, YAML: a recorded frame from elsewhere, in perspective or not, light and all things where they "
-	  "stand, or many pictures of one frame around it (turntable; -f names the frame, the pictures are numbered from "
+	  "another camera, YAML: a recorded frame from elsewhere, in perspective or not, with lights and objects in "
+	  "place, or many pictures of one frame around it (turntable; -f names the frame, the pictures are numbered from "
 	  "0). HUDs are left out. 'relume help camera-file' lists all keys",
 	  take_camera, .at = 0, .kind = PICTURE_FILE, .use = CONFINE_READS },
 	{ "scale", 0, "X",
@@ -301,7 +301,7 @@ static const struct options_row rows[] = {
 	{ "relight", 0, NULL, "light pixels (Phong) instead of vertices; channel relight holds the difference",
 	  options_flag, AT(tracer.relight) },
 	{ .help = "Pictures to look at (.png, .jpg; sRGB, dithered but in mode gl):" },
-	{ "exposure", 0, "STOPS", "brighter by so many stops (default 0), the same for all frames", options_real,
+	{ "exposure", 0, "STOPS", "brighten by this many stops (default 0), the same for all frames", options_real,
 	  AT(display.exposure), .low = -30, .high = 30 },
 	{ "white", 0, "X",
 	  "the brightness that is shown as white; below it, highlights are compressed (default 1: what GL drew looks as it "
@@ -321,18 +321,18 @@ static const struct options_row rows[] = {
 	{ "jobs", 'j', "N", "frames in flight on each device (default: by the number of cores)", options_number,
 	  AT(jobs), .most = 64, .kind = RUN },
 	{ "limit-memory", 0, "M",
-	  "memory to stay within, as 800M or 4G: fewer frames are in flight; a single frame that needs "
-	  "more ends the run",
+	  "memory limit, such as 800M or 4G: fewer frames are in flight; a single frame that needs more ends the "
+	  "run",
 	  options_bytes, AT(memory_bytes), .kind = RUN },
 	{ "cache", 0, "DIR",
-	  "where trees of large meshes, compiled kernels, what 'relume devices --check' found and pixels that later frames "
-	  "begin with are kept for other runs; processes and machines may share it (default: relume/trees, kernels, devices "
-	  "and pixels in $XDG_CACHE_HOME, or in ~/.cache; PoCL keeps kernels itself)",
+	  "folder that keeps trees of large meshes, compiled kernels, results of 'relume devices --check' and pixels that "
+	  "later frames begin with for other runs; processes and machines may share it (default: relume/trees, kernels, "
+	  "devices and pixels in $XDG_CACHE_HOME, or in ~/.cache; PoCL keeps kernels itself)",
 	  take_folder, AT(cache), .kind = RUN, .use = CONFINE_FILLS },
-	{ "cache-size", 0, "M", "what that folder may hold: unused trees go first (default 2G)", options_bytes,
+	{ "cache-size", 0, "M", "size limit of that folder: unused trees are removed first (default 2G)", options_bytes,
 	  AT(cache_bytes), .kind = RUN },
 	{ "no-cache", 0, NULL, "use no cache", options_flag, AT(no_cache), .kind = RUN },
-	{ "timeout-per-frame", 0, "S", "give up a frame after so many seconds and go on with the next", take_seconds,
+	{ "timeout-per-frame", 0, "S", "give up a frame after this many seconds and go on with the next", take_seconds,
 	  AT(frame_s), .kind = RUN },
 	{ "timeout-driver", 0, "S",
 	  "a call of OpenCL that has taken S seconds (default 300) counts as hung where it used as much processor time to "

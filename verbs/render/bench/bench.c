@@ -77,9 +77,9 @@ static const struct options_row rows[] = {
 	  .most = 1024 },
 	{ "models", 0, "DIR",
 	  "folder with stanford-bunny.obj, cow.obj, spot.obj, teapot.obj (default: ../shared/models; bumpy spheres "
-	  "stand in where they are missing)",
+	  "replace missing files)",
 	  options_text, .at = offsetof(struct options, models), .use = CONFINE_READS },
-	{ "accel", 0, "LIST", "kinds of trees, side by side: " TREE_BUILDERS(ACCEL_WORD) "with commas, or all",
+	{ "accel", 0, "LIST", "kinds of trees to compare: " TREE_BUILDERS(ACCEL_WORD) "with commas, or all",
 	  take_kinds, .at = offsetof(struct options, kinds) },
 	{ "repeat", 0, "N", "runs of each (default 5)", options_number, .at = offsetof(struct options, repeats),
 	  .most = MAX_REPEATS },
