@@ -219,6 +219,7 @@ struct rules {
 	uint32_t surfaces_count, lights_count, world_count, unseen_count; /* libcyaml wants these names */
 };
 
+struct findings;
 struct scene;
 
 struct look {
@@ -237,4 +238,7 @@ int rules_load(const char *path, struct look **out);
 
 /** The same for text in memory. @param name  what messages call it */
 int rules_parse(const char *name, const char *text, size_t n, struct look **out);
+
+/** The same for what a study found, without a file. */
+int rules_from_findings(const char *name, const struct findings *findings, struct look **out);
 void rules_free(struct look **look);

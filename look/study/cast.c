@@ -1,6 +1,5 @@
 #include "look/study/cast.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -202,25 +201,20 @@ void cast_add(struct cast *c, const struct scene *s)
 	}
 }
 
-unsigned cast_write(const struct cast *c, FILE *out)
+void cast_find(const struct cast *c, struct findings *out)
 {
-	unsigned n = 0;
-
 	for (unsigned i = 0; i < c->n; i++) {
 		const struct cast_texture *t = &c->textures[i];
+		struct finding *rule;
 
 		if (t->others > t->thrown)
 			continue;
-		n++;
-		if (out)
-			fprintf(out,
-			        "  - role: shadow in a unit\n    confidence: %.2f\n    why: \"%u of %u draws in %u "
-			        "frames: a texture that is dark in its middle falls "
-			        "where a thing is, by places alone; traced shadows of OpenGL's lights replace it\"\n"
-			        "    match: { texture: \"%016" PRIx64 "%016" PRIx64
-			        "\", lit: yes }\n    shadow_unit: %u\n",
-			        t->thrown * (1 - 0.5 / (1 + t->frames)) / (t->thrown + t->others), t->thrown,
-			        t->thrown + t->others, t->frames, t->hash[1], t->hash[0], t->unit);
+		rule = findings_add(out, FINDINGS_SURFACES, "shadow in a unit");
+		finding_explain(rule, t->thrown * (1 - 0.5 / (1 + t->frames)) / (t->thrown + t->others),
+		                "%u of %u draws in %u frames: a texture that is dark in its middle falls where a thing is, "
+		                "by places alone; traced shadows of OpenGL's lights replace it",
+		                t->thrown, t->thrown + t->others, t->frames);
+		FINDING_MATCH(rule, FINDING_HASHED("texture", t->hash), FINDING_IS("lit", 1));
+		FINDING_SET(rule, FINDING_COUNTED("shadow_unit", t->unit));
 	}
-	return n;
 }

@@ -5,8 +5,7 @@
  */
 #pragma once
 
-#include <stdio.h>
-
+#include "look/findings.h"
 #include "scene/scene.h"
 
 enum { CAST_MOST = 16 };
@@ -25,5 +24,5 @@ struct cast {
 /** Study one more frame. */
 void cast_add(struct cast *c, const struct scene *scene);
 
-/** Entries of the list `surfaces`. out: NULL: they are only counted. @return how many */
-unsigned cast_write(const struct cast *c, FILE *out);
+/** Rules for surfaces. */
+void cast_find(const struct cast *c, struct findings *out);

@@ -167,14 +167,16 @@ static double middle_size(const double sizes[DOME_SIZES])
 	return exp2((i + 0.5 - DOME_SIZES / 2.0) / 4);
 }
 
-/* Where OpenGL lights most: its ambient light comes from all around, and what stands close dims it. */
-static void write_for_lit(const struct dome *d, FILE *out)
+/* In a world that OpenGL lights, its ambient light comes from all around, and things nearby dim it. */
+static void find_for_lit(const struct dome *d, struct findings *out)
 {
-	fprintf(out, "sky:\n  role: ambient light\n  confidence: %.2f\n", d->lit / (d->unlit + d->lit));
-	fprintf(out, "  why: \"OpenGL lights %.0f %% of what is solid; what stands close dims the light from all around\"\n",
-	        100 * d->lit / (d->unlit + d->lit));
-	fprintf(out, "  reach: %.4g\n  light: [1, 1, 1]\n  lit: %g\n  unlit: no\n",
-	        REACH_LIT * middle_size(d->sizes[1]), LIT_SHARE);
+	struct finding *rule = findings_add(out, FINDINGS_SKY, "ambient light");
+
+	finding_explain(rule, d->lit / (d->unlit + d->lit),
+	                "OpenGL lights %.0f %% of what is solid; what stands close dims the light from all around",
+	                100 * d->lit / (d->unlit + d->lit));
+	FINDING_SET(rule, FINDING_NUMBER("reach", 4, REACH_LIT * middle_size(d->sizes[1])),
+	            FINDING_VECTOR("light", 1, 1, 1, 1), FINDING_NUMBER("lit", 6, LIT_SHARE), FINDING_IS("unlit", 0));
 }
 
 /* What most of the level ground says; NULL: there is too little of it */
@@ -197,38 +199,39 @@ int dome_find_up(const struct dome *d, double up[3])
 }
 
 /* White, or somewhat of the sky's colour, as bright. */
-static void write_light(const struct dome *d, FILE *out)
+static void find_colors(const struct dome *d, struct finding *out)
 {
 	const double mean = (d->sky[0] + d->sky[1] + d->sky[2]) / 3;
 	double light[3];
 
 	for (int k = 0; k < 3; k++)
 		light[k] = mean > 0 ? 1 + TINT * (d->sky[k] / mean - 1) : 1;
-	fprintf(out, "  light: [%.3g, %.3g, %.3g]\n  ground: [0.7, 0.7, 0.7]\n", light[0], light[1], light[2]);
+	FINDING_SET(out, FINDING_VECTOR("light", 3, light[0], light[1], light[2]),
+	            FINDING_VECTOR("ground", 1, 0.7, 0.7, 0.7));
 }
 
-void dome_write(const struct dome *d, FILE *out)
+void dome_find(const struct dome *d, struct findings *out)
 {
 	const struct dome_up *best = find_floor(d);
-	const int has_floor = best != NULL;
+	const double *up = best ? best->normal : d->up_eye;
+	char why[80] = "up is where the window has it";
+	struct finding *rule;
 
 	if (!dome_is_wanted(d)) {
 		if (d->lit > 0)
-			write_for_lit(d, out);
+			find_for_lit(d, out);
 		return;
 	}
-	fprintf(out, "sky:\n  role: sky light\n  confidence: %.2f\n", d->unlit / (d->unlit + d->lit));
-	fprintf(out, "  why: \"OpenGL lights %.0f %% of what is solid, and nothing tells of another light; ",
-	        100 * d->lit / (d->unlit + d->lit));
-	if (has_floor)
-		fprintf(out, "%.0f %% of the rest is level, which says what is up\"\n", 100 * best->weight / d->all);
-	else
-		fprintf(out, "up is where the window has it\"\n");
-	fprintf(out, "  reach: %.4g\n", REACH * middle_size(d->sizes[0]));
-	if (has_floor)
-		fprintf(out, "  up: [%.4f, %.4f, %.4f]\n  space: world\n", best->normal[0], best->normal[1], best->normal[2]);
-	else
-		fprintf(out, "  up: [%.4f, %.4f, %.4f]\n", d->up_eye[0], d->up_eye[1], d->up_eye[2]);
-	write_light(d, out);
-	fprintf(out, "  lit: %g\n", LIT_SHARE);
+	rule = findings_add(out, FINDINGS_SKY, "sky light");
+	if (best)
+		snprintf(why, sizeof(why), "%.0f %% of the rest is level, which says what is up", 100 * best->weight / d->all);
+	finding_explain(rule, d->unlit / (d->unlit + d->lit),
+	                "OpenGL lights %.0f %% of what is solid, and nothing tells of another light; %s",
+	                100 * d->lit / (d->unlit + d->lit), why);
+	FINDING_SET(rule, FINDING_NUMBER("reach", 4, REACH * middle_size(d->sizes[0])),
+	            FINDING_VECTOR("up", -4, up[0], up[1], up[2]));
+	if (best)
+		FINDING_SET(rule, FINDING_NAMED("space", "world"));
+	find_colors(d, rule);
+	FINDING_SET(rule, FINDING_NUMBER("lit", 6, LIT_SHARE));
 }

@@ -4,8 +4,7 @@
  */
 #pragma once
 
-#include <stdio.h>
-
+#include "look/findings.h"
 #include "look/study/motion.h"
 #include "scene/scene.h"
 
@@ -39,5 +38,5 @@ int dome_is_wanted(const struct dome *d);
 /** The world's up, by its floors. @return 0: they do not tell */
 int dome_find_up(const struct dome *d, double up[3]);
 
-/** The rule `sky`: for all, or where OpenGL lights most, for what it lights. */
-void dome_write(const struct dome *d, FILE *out);
+/** The rule `sky`: for all surfaces or, in a world that OpenGL lights, for those that it lights. */
+void dome_find(const struct dome *d, struct findings *out);

@@ -1,6 +1,5 @@
 #include "look/study/floor.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -149,25 +148,26 @@ void floors_add(struct floors *f, const struct scene *scene, const struct motion
 	}
 }
 
-unsigned floors_write(const struct floors *f, FILE *out)
+static int is_polished(const struct floors *f, const struct floor_texture *t)
 {
-	unsigned n = 0;
+	return t->shadowed >= LEAST_SHADOWED * t->draws && t->share >= LEAST_SHARE * f->frames && t->even >= LEAST_EVEN &&
+	       t->shown <= DARKEST;
+}
 
+void floors_find(const struct floors *f, struct findings *out)
+{
 	for (unsigned i = 0; i < f->n; i++) {
 		const struct floor_texture *t = &f->textures[i];
+		struct finding *rule;
 
-		if (t->shadowed < LEAST_SHADOWED * t->draws || t->share < LEAST_SHARE * f->frames ||
-		    t->even < LEAST_EVEN || t->shown > DARKEST)
+		if (!is_polished(f, t))
 			continue;
-		n++;
-		if (out)
-			fprintf(out,
-			        "  - role: polished floor\n    confidence: 0.5\n"
-			        "    why: \"shadows fall on it in %u of %u draws; it is dark, and %.0f %% of its "
-			        "texels are as their neighbours\"\n"
-			        "    match: { texture: \"%016" PRIx64 "%016" PRIx64
-			        "\", lit: no, parallel: no, modelview: plain }\n    reflect: %g\n    near: yes\n",
-			        t->shadowed, t->draws, 100 * t->even, t->hash[1], t->hash[0], MIRRORED);
+		rule = findings_add(out, FINDINGS_SURFACES, "polished floor");
+		FINDING_SET(rule, FINDING_NUMBER("confidence", 1, 0.5));
+		finding_say(rule, "shadows fall on it in %u of %u draws; it is dark, and %.0f %% of its texels are as "
+		            "their neighbours", t->shadowed, t->draws, 100 * t->even);
+		FINDING_MATCH(rule, FINDING_HASHED("texture", t->hash), FINDING_IS("lit", 0), FINDING_IS("parallel", 0),
+		              FINDING_NAMED("modelview", "plain"));
+		FINDING_SET(rule, FINDING_NUMBER("reflect", 6, MIRRORED), FINDING_IS("near", 1));
 	}
-	return n;
 }

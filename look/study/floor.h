@@ -5,8 +5,7 @@
  */
 #pragma once
 
-#include <stdio.h>
-
+#include "look/findings.h"
 #include "look/study/tricks.h"
 
 enum { FLOORS_MOST = 32 }; /* textures */
@@ -27,5 +26,5 @@ struct floors {
 /** Study one more frame, after shadows_add. */
 void floors_add(struct floors *f, const struct scene *scene, const struct motion *motion, const struct tricks *tricks);
 
-/** Entries of the list `surfaces`. @param out  NULL: they are only counted. @return how many */
-unsigned floors_write(const struct floors *f, FILE *out);
+/** Rules for surfaces. */
+void floors_find(const struct floors *f, struct findings *out);

@@ -1,6 +1,5 @@
 #include "look/study/kinds.h"
 
-#include <inttypes.h>
 #include <stdlib.h>
 
 #include "base/memory.h"
@@ -160,24 +159,29 @@ void kinds_free(struct kinds *k)
 
 /* A role as rules have it. */
 struct rule {
-	const char *role, *why, *view, *then;
+	const char *role, *why;
+	struct finding_value sets[3];
 	uint32_t roles; /* bits of enum kind_role: any of them */
 	uint32_t when;  /* bits: 1: what OpenGL does not light stays so; 2: other lights light it */
 };
 
+#define KEEPS_LIGHT { FINDING_IS("shadows", 0), FINDING_IS("shaded", 0) }
+#define NO_SHADOW { FINDING_IS("shadows", 0) }
+#define IS_REPLACED { FINDING_IS("shadows", 0), FINDING_IS("mirrors", 0), FINDING_IS("left_out", 1) }
+#define STAYS { FINDING_IS("shadows", 0), FINDING_IS("dome", 0) }
+
 static const struct rule rules[] = {
-	{ "sky", "are painted before the world, hide nothing of it, and are all around", "",
-	  "    shadows: no\n    shaded: no\n", 1u << KIND_SKY, 3 },
-	{ "decal", "lie on what was drawn before them", ", parallel: no", "    shadows: no\n", 1u << KIND_DECAL, 3 },
+	{ "sky", "are painted before the world, hide nothing of it, and are all around", KEEPS_LIGHT, 1u << KIND_SKY, 3 },
+	{ "decal", "lie on what was drawn before them", NO_SHADOW, 1u << KIND_DECAL, 3 },
 	{ "blob shadow",
 	  "darken what they lie on, below a thing that stands there; traced shadows of OpenGL's lights replace them",
-	  ", parallel: no", "    shadows: no\n    mirrors: no\n    left_out: yes\n", 1u << KIND_LIT_SHADOW, 3 },
+	  IS_REPLACED, 1u << KIND_LIT_SHADOW, 3 },
 	{ "blob shadow",
 	  "darken what they lie on, below a thing that stands there; no light of OpenGL's does, and so they stay",
-	  ", parallel: no", "    shadows: no\n    dome: no\n", 1u << KIND_SHADOW, 1 },
+	  STAYS, 1u << KIND_SHADOW, 1 },
 	{ "blob shadow",
 	  "darken what they lie on, below a thing that stands there; traced shadows of the lights below replace them",
-	  ", parallel: no", "    shadows: no\n    mirrors: no\n    left_out: yes\n", 1u << KIND_SHADOW, 2 },
+	  IS_REPLACED, 1u << KIND_SHADOW, 2 },
 };
 
 enum { N_RULES = sizeof(rules) / sizeof(rules[0]) };
@@ -218,26 +222,25 @@ static int is_needed(const struct kinds *k, size_t state, uint32_t roles)
 	return 0;
 }
 
-/* view: what the match says of the view of a mesh or a texture */
-static void write_match(const struct kind *k, const char *view, FILE *out)
+/* The draws of a kind. Rules for decals and shadows leave alone what is drawn in parallel projection; a state names the
+ * projection itself. */
+static void match_kind(const struct kind *k, const struct rule *r, struct finding *out)
 {
-	static const char *const yes_no[] = { "no", "yes" };
 	const uint64_t s = k->hash[0];
 
-	if (k->by != BY_STATE) {
-		fprintf(out, "    match: { %s: \"%016" PRIx64 "%016" PRIx64 "\"%s }\n",
-		        k->by == BY_MESH ? "mesh" : "texture", k->hash[1], k->hash[0], view);
+	if (k->by == BY_STATE) {
+		FINDING_MATCH(out, FINDING_IS("lit", s & STATE_LIT), FINDING_COUNTED("units", s / STATE_UNITS),
+		              FINDING_IS("blended", s & STATE_BLENDED), FINDING_IS("alpha_tested", s & STATE_ALPHA),
+		              FINDING_IS("depth_tested", s & STATE_DEPTH), FINDING_IS("stencil_tested", s & STATE_STENCIL),
+		              FINDING_IS("multiplies", s & STATE_MULTIPLIES), FINDING_IS("parallel", s & STATE_PARALLEL));
 		return;
 	}
-	fprintf(out, "    match: { lit: %s, units: %" PRIu64 ", blended: %s, alpha_tested: %s, depth_tested: %s,\n",
-	        yes_no[(s & STATE_LIT) != 0], s / STATE_UNITS, yes_no[(s & STATE_BLENDED) != 0],
-	        yes_no[(s & STATE_ALPHA) != 0],
-	        yes_no[(s & STATE_DEPTH) != 0]);
-	fprintf(out, "             stencil_tested: %s, multiplies: %s, parallel: %s }\n", yes_no[(s & STATE_STENCIL) != 0],
-	        yes_no[(s & STATE_MULTIPLIES) != 0], yes_no[(s & STATE_PARALLEL) != 0]);
+	FINDING_MATCH(out, FINDING_HASHED(k->by == BY_MESH ? "mesh" : "texture", k->hash));
+	if (r->roles != 1u << KIND_SKY)
+		FINDING_MATCH(out, FINDING_IS("parallel", 0));
 }
 
-static int is_written(const struct kinds *k, size_t i, uint32_t roles)
+static int is_found(const struct kinds *k, size_t i, uint32_t roles)
 {
 	const struct kind *kind = &k->list[i];
 
@@ -246,32 +249,26 @@ static int is_written(const struct kinds *k, size_t i, uint32_t roles)
 	return kind->by == BY_MESH ? !is_said(k, kind, roles) : kind->by == BY_TEXTURE || is_needed(k, i, roles);
 }
 
-unsigned kinds_write(const struct kinds *k, int is_relit, FILE *out)
+void kinds_find(const struct kinds *k, int is_relit, struct findings *out)
 {
-	unsigned n = 0;
-
 	for (int r = 0; r < N_RULES; r++) {
-		unsigned of_role = 0;
+		unsigned n = 0;
 
-		for (size_t i = 0; i < k->n && of_role < MOST_RULES; i++) {
+		for (size_t i = 0; i < k->n && n < MOST_RULES; i++) {
 			const struct kind *kind = &k->list[i];
+			const uint32_t with = draws_with(kind, rules[r].roles);
+			struct finding *rule;
 
-			if (!(rules[r].when >> is_relit & 1) || !is_written(k, i, rules[r].roles))
+			if (!(rules[r].when >> is_relit & 1) || !is_found(k, i, rules[r].roles))
 				continue;
-			of_role++;
-			if (!out)
-				continue;
-			fprintf(out,
-			        "  - role: %s\n    confidence: %.2f\n    why: \"%u of %u draws in %u frames %s\"\n",
-			        rules[r].role,
-			        draws_with(kind, rules[r].roles) * (1 - 0.5 / (1 + kind->frames)) / votes_of(kind),
-			        draws_with(kind, rules[r].roles), votes_of(kind), kind->frames, rules[r].why);
-			write_match(kind, rules[r].view, out);
-			fputs(rules[r].then, out);
+			n++;
+			rule = findings_add(out, FINDINGS_SURFACES, "%s", rules[r].role);
+			finding_explain(rule, with * (1 - 0.5 / (1 + kind->frames)) / votes_of(kind),
+			                "%u of %u draws in %u frames %s", with, votes_of(kind), kind->frames, rules[r].why);
+			match_kind(kind, &rules[r], rule);
+			finding_set(rule, rules[r].sets, sizeof(rules[r].sets) / sizeof(rules[r].sets[0]));
 		}
-		n += of_role;
 	}
-	return n;
 }
 
 int kinds_has_sky(const struct kinds *k, const uint64_t mesh[2])

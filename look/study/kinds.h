@@ -6,9 +6,9 @@
 #pragma once
 
 #include <stdint.h>
-#include <stdio.h>
 
 #include "base/table.h"
+#include "look/findings.h"
 #include "scene/scene.h"
 
 enum kind_role { KIND_WORLD, KIND_SKY, KIND_DECAL, KIND_SHADOW, KIND_LIT_SHADOW, N_KIND_ROLES };
@@ -37,13 +37,8 @@ struct kinds {
 int kinds_add(struct kinds *k, const struct scene *scene);
 void kinds_free(struct kinds *k);
 
-/** 1 where a mesh is part of the sky by what kinds_write says. */
+/** 1 if a mesh is part of the sky, by the rules of kinds_find. */
 int kinds_has_sky(const struct kinds *k, const uint64_t mesh[2]);
 
-/**
- * Entries of the list `surfaces`.
- * @param is_relit  1: what OpenGL does not light is lit by other lights, which throw shadows
- * @param out       NULL: they are only counted
- * @return how many
- */
-unsigned kinds_write(const struct kinds *k, int is_relit, FILE *out);
+/** Rules for surfaces. @param is_relit  1: surfaces that OpenGL does not light get other lights, which cast shadows */
+void kinds_find(const struct kinds *k, int is_relit, struct findings *out);

@@ -1,6 +1,5 @@
 #include "look/study/lamps.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <string.h>
 
@@ -123,42 +122,44 @@ unsigned lamps_count(const struct lamps *l, const struct motion *m)
 	return n;
 }
 
-void lamps_write_surfaces(const struct lamps *l, const struct motion *m, FILE *out)
+void lamps_find_surfaces(const struct lamps *l, const struct motion *m, struct findings *out)
 {
 	for (unsigned i = 0; i < l->n; i++) {
 		const struct lamp *lamp = &l->list[i];
+		struct finding *rule;
 
-		if (is_lamp(lamp, m))
-			fprintf(out,
-			        "  - role: lamp\n    confidence: %.2f\n    why: \"small, lit by nothing, and bright in "
-			        "%u frames\"\n"
-			        "    match: { mesh: \"%016" PRIx64 "%016" PRIx64
-			        "\", lit: no }\n    shadows: no\n    dome: no\n    lit: no\n",
-			        0.8 * (1 - 0.5 / (1 + lamp->draws)), lamp->draws, lamp->mesh[1], lamp->mesh[0]);
+		if (!is_lamp(lamp, m))
+			continue;
+		rule = findings_add(out, FINDINGS_SURFACES, "lamp");
+		finding_explain(rule, 0.8 * (1 - 0.5 / (1 + lamp->draws)), "small, lit by nothing, and bright in %u frames",
+		                lamp->draws);
+		FINDING_MATCH(rule, FINDING_HASHED("mesh", lamp->mesh), FINDING_IS("lit", 0));
+		FINDING_SET(rule, FINDING_IS("shadows", 0), FINDING_IS("dome", 0), FINDING_IS("lit", 0));
 	}
 }
 
-void lamps_write_lights(const struct lamps *l, const struct motion *m, FILE *out)
+void lamps_find_lights(const struct lamps *l, const struct motion *m, struct findings *out)
 {
 	unsigned n = 0;
 
 	for (unsigned i = 0; i < l->n && n < LAMPS_MOST; i++) {
 		const struct lamp *lamp = &l->list[i];
 		unsigned larger = 0;
+		struct finding *rule;
 
 		for (unsigned k = 0; k < l->n; k++)
 			larger += is_lamp(&l->list[k], m) && (l->list[k].size > lamp->size || (l->list[k].size == lamp->size && k < i));
 		if (!is_lamp(lamp, m) || larger >= LAMPS_MOST)
 			continue;
 		n++;
-		fprintf(out,
-		        "  - role: light of a lamp\n    confidence: %.2f\n    why: \"bright texels shine; how "
-		        "strongly, nothing says\"\n    on: unlit\n"
-		        "    space: world\n    position: [%.6g, %.6g, %.6g, 1]\n    diffuse: [%.3f, %.3f, %.3f]\n    "
-		        "specular: [0, 0, 0]\n"
-		        "    attenuation: [1, 0, %.4g]\n    radius: %.4g\n",
-		        0.5, lamp->at[0], lamp->at[1], lamp->at[2], STRENGTH * lamp->color[0],
-		        STRENGTH * lamp->color[1], STRENGTH * lamp->color[2],
-		        1 / (REACH * REACH * lamp->size * lamp->size), 0.5 * lamp->size);
+		rule = findings_add(out, FINDINGS_LIGHTS, "light of a lamp");
+		finding_explain(rule, 0.5, "bright texels shine; how strongly, nothing says");
+		FINDING_SET(rule, FINDING_NAMED("on", "unlit"), FINDING_NAMED("space", "world"),
+		            FINDING_PLACE("position", 6, lamp->at, 1),
+		            FINDING_VECTOR("diffuse", -3, STRENGTH * lamp->color[0], STRENGTH * lamp->color[1],
+		                           STRENGTH * lamp->color[2]),
+		            FINDING_VECTOR("specular", 1, 0, 0, 0),
+		            FINDING_VECTOR("attenuation", 4, 1, 0, 1 / (REACH * REACH * lamp->size * lamp->size)),
+		            FINDING_NUMBER("radius", 4, 0.5 * lamp->size));
 	}
 }

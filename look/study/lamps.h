@@ -4,8 +4,7 @@
  */
 #pragma once
 
-#include <stdio.h>
-
+#include "look/findings.h"
 #include "look/study/kinds.h"
 #include "look/study/motion.h"
 #include "scene/scene.h"
@@ -34,8 +33,8 @@ void lamps_add(struct lamps *l, const struct scene *scene, const struct motion *
 /** How many there are that stand still. */
 unsigned lamps_count(const struct lamps *l, const struct motion *motion);
 
-/** Entries of the list `surfaces`: they stay as bright as they are. */
-void lamps_write_surfaces(const struct lamps *l, const struct motion *motion, FILE *out);
+/** Rules for surfaces: lamps stay as bright as they are. */
+void lamps_find_surfaces(const struct lamps *l, const struct motion *motion, struct findings *out);
 
-/** Entries of the list `lights`, the largest ones. */
-void lamps_write_lights(const struct lamps *l, const struct motion *motion, FILE *out);
+/** Rules for the lights of the largest lamps. */
+void lamps_find_lights(const struct lamps *l, const struct motion *motion, struct findings *out);

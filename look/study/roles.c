@@ -1,6 +1,5 @@
 #include "look/study/roles.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -224,8 +223,8 @@ static uint32_t next_mesh(const struct roles *r, const struct motion *m, role_te
 	return SCENE_NONE;
 }
 
-static unsigned write_meshes(const struct roles *r, const struct motion *m, role_test *has, const char *role,
-                             const char *then, const char *why, FILE *out)
+static void find_meshes(const struct roles *r, const struct motion *m, role_test *has, const char *role,
+                        const char *why, const struct finding_value sets[3], struct findings *out)
 {
 	unsigned n = 0;
 
@@ -233,54 +232,51 @@ static unsigned write_meshes(const struct roles *r, const struct motion *m, role
 		for (int turned = 0; turned < 2; turned++) {
 			const struct motion_thing *t = &m->things[i];
 			const uint64_t *hash = turned ? t->turned : t->mesh;
+			struct finding *rule;
 
 			if (!(hash[0] | hash[1]))
 				continue;
 			n++;
-			if (out)
-				fprintf(out,
-				        "  - role: %s\n    confidence: %.2f\n    why: \"in %u frames %s\"\n    match: "
-				        "{ mesh: \"%016" PRIx64 "%016" PRIx64 "\" }\n"
-				        "    shadows: no\n%s",
-				        role, 1 - 1.0 / (1 + t->again), t->again, why, hash[1], hash[0], then);
+			rule = findings_add(out, FINDINGS_SURFACES, "%s", role);
+			finding_explain(rule, 1 - 1.0 / (1 + t->again), "in %u frames %s", t->again, why);
+			FINDING_MATCH(rule, FINDING_HASHED("mesh", hash));
+			finding_set(rule, sets, 3);
 		}
-	return n;
 }
 
-/* out: NULL: they are only counted */
-static unsigned write_all(const struct roles *r, const struct motion *m, int is_relit, FILE *out)
+static void find_particles(const struct roles *r, struct findings *out)
 {
-	unsigned n = write_meshes(r, m, is_sky, "sky", "    shaded: no\n",
-	                          "it turned with the world and came along with the viewer", out) +
-	             write_meshes(r, m, is_held, "view model", "    dome: no\n    lit: no\n",
-	                          "it was where it was before the viewer, who moved", out);
-
 	for (unsigned i = 0; i < r->n_textures; i++) {
 		const struct role_texture *t = &r->textures[i];
+		struct finding *rule;
 
 		if (!is_particle(r, t))
 			continue;
-		n++;
-		if (out)
-			fprintf(out, "  - role: particle\n    confidence: %.2f\n    why: \"%u of %u draws in %u frames %s\"\n"
-			        "    match: { texture: \"%016" PRIx64 "%016" PRIx64 "\", blended: yes }\n    shadows: no\n    dome: no\n",
-			        (double)t->facing / (t->facing + t->others), t->facing, t->facing + t->others, t->frames,
-			        t->points == t->facing ? "are points with a picture" : "face the viewer, who turns", t->hash[1], t->hash[0]);
+		rule = findings_add(out, FINDINGS_SURFACES, "particle");
+		finding_explain(rule, (double)t->facing / (t->facing + t->others), "%u of %u draws in %u frames %s", t->facing,
+		                t->facing + t->others, t->frames,
+		                t->points == t->facing ? "are points with a picture" : "face the viewer, who turns");
+		FINDING_MATCH(rule, FINDING_HASHED("texture", t->hash), FINDING_IS("blended", 1));
+		FINDING_SET(rule, FINDING_IS("shadows", 0), FINDING_IS("dome", 0));
 	}
-	if (r->hud_frames && out)
-		fprintf(out, "  - role: HUD\n    confidence: %.2f\n"
-		        "    why: \"%u draws in %u frames are in parallel projection over a world in perspective\"\n"
-		        "    match: { parallel: yes, stencil_tested: no }\n    shadows: no\n    mirrors: no\n    dome: no\n",
-		        1 - 0.5 / (1 + r->hud_frames), r->hud_draws, r->hud_frames);
-	return n + (r->hud_frames > 0) + kinds_write(&r->kinds, is_relit, out);
 }
 
-unsigned roles_count(const struct roles *r, const struct motion *motion)
+void roles_find(const struct roles *r, const struct motion *m, int is_relit, struct findings *out)
 {
-	return write_all(r, motion, 0, NULL);
-}
+	static const struct finding_value sky[3] = { FINDING_IS("shadows", 0), FINDING_IS("shaded", 0) };
+	static const struct finding_value held[3] = { FINDING_IS("shadows", 0), FINDING_IS("dome", 0), FINDING_IS("lit", 0) };
+	struct finding *rule;
 
-void roles_write(const struct roles *r, const struct motion *motion, int is_relit, FILE *out)
-{
-	write_all(r, motion, is_relit, out);
+	find_meshes(r, m, is_sky, "sky", "it turned with the world and came along with the viewer", sky, out);
+	find_meshes(r, m, is_held, "view model", "it was where it was before the viewer, who moved", held, out);
+	find_particles(r, out);
+	if (r->hud_frames) {
+		rule = findings_add(out, FINDINGS_SURFACES, "HUD");
+		finding_explain(rule, 1 - 0.5 / (1 + r->hud_frames),
+		                "%u draws in %u frames are in parallel projection over a world in perspective", r->hud_draws,
+		                r->hud_frames);
+		FINDING_MATCH(rule, FINDING_IS("parallel", 1), FINDING_IS("stencil_tested", 0));
+		FINDING_SET(rule, FINDING_IS("shadows", 0), FINDING_IS("mirrors", 0), FINDING_IS("dome", 0));
+	}
+	kinds_find(&r->kinds, is_relit, out);
 }

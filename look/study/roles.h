@@ -13,8 +13,7 @@
  */
 #pragma once
 
-#include <stdio.h>
-
+#include "look/findings.h"
 #include "look/study/kinds.h"
 #include "look/study/motion.h"
 #include "scene/scene.h"
@@ -53,8 +52,5 @@ struct roles {
 int roles_add(struct roles *r, const struct scene *scene, const struct motion *motion);
 void roles_free(struct roles *r);
 
-/** How many rules there are. */
-unsigned roles_count(const struct roles *r, const struct motion *motion);
-
-/** Entries of the list `surfaces`. is_relit: 1: what OpenGL does not light is lit by other lights */
-void roles_write(const struct roles *r, const struct motion *motion, int is_relit, FILE *out);
+/** Rules for surfaces. @param is_relit  1: surfaces that OpenGL does not light get other lights */
+void roles_find(const struct roles *r, const struct motion *motion, int is_relit, struct findings *out);

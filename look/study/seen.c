@@ -65,13 +65,16 @@ static size_t find_best(const struct seen *seen, const struct asked *a, uint32_t
 	return most;
 }
 
-/* A frame's draws as ranges; what they draw is covered then. */
-static void write_draws(const struct seen *seen, const struct asked *a, uint32_t frame, FILE *out)
+/* A frame's draws as ranges, to be freed; what they draw is covered then. NULL: out of memory */
+static char *draws_of(const struct seen *seen, const struct asked *a, uint32_t frame)
 {
+	char *text = NULL;
+	size_t size;
+	FILE *out = open_memstream(&text, &size);
 	uint32_t first = 0, last = 0;
 	const char *comma = "";
 
-	for (size_t i = 0; i < seen->n; i++) {
+	for (size_t i = 0; i < seen->n && out; i++) {
 		const struct seen_draw *d = &seen->draws[i];
 
 		if (d->frame != frame || !is_wanted(a, d->thing))
@@ -86,10 +89,17 @@ static void write_draws(const struct seen *seen, const struct asked *a, uint32_t
 		comma = first ? "," : "";
 		first = last = d->draw;
 	}
+	if (!out)
+		return NULL;
 	fprintf(out, "%s%u-%u", comma, first, last);
+	if (fclose(out)) {
+		free(text);
+		text = NULL;
+	}
+	return text;
 }
 
-int seen_write(const struct seen *seen, const struct motion *m, FILE *out)
+int seen_find(const struct seen *seen, const struct motion *m, struct findings *out)
 {
 	struct asked a = { .motion = m, .covered = calloc(m->n_things + 1, 1) };
 	uint32_t frame = 0;
@@ -99,15 +109,14 @@ int seen_write(const struct seen *seen, const struct motion *m, FILE *out)
 	a.part = motion_main_part(m, &a.frames);
 	for (int i = 0; i < MOST_FRAMES; i++) {
 		const size_t n = find_best(seen, &a, &frame);
+		struct finding *rule;
 
 		if (!n)
 			break;
-		fprintf(out,
-		        "%s  - role: out of sight\n    why: \"%zu meshes stand still, and some frames leave them "
-		        "out\"\n    frame: %llu\n    draws: \"",
-		        i ? "" : "unseen:\n", n, (unsigned long long)m->cameras[frame].frame);
-		write_draws(seen, &a, frame, out);
-		fprintf(out, "\"\n");
+		rule = findings_add(out, FINDINGS_UNSEEN, "out of sight");
+		finding_say(rule, "%zu meshes stand still, and some frames leave them out", n);
+		FINDING_SET(rule, FINDING_COUNTED("frame", m->cameras[frame].frame),
+		            { .key = "draws", .type = FINDING_QUOTED, .text = draws_of(seen, &a, frame) });
 	}
 	free(a.covered);
 	return 0;

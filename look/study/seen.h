@@ -4,8 +4,7 @@
  */
 #pragma once
 
-#include <stdio.h>
-
+#include "look/findings.h"
 #include "look/study/motion.h"
 #include "scene/scene.h"
 
@@ -23,4 +22,4 @@ void seen_free(struct seen *seen);
 
 /** The rules `unseen`: few frames that draw between them all that stands still and some frames leave out. @return 0 or
  * ERR_SYSTEM (reported) */
-int seen_write(const struct seen *seen, const struct motion *motion, FILE *out);
+int seen_find(const struct seen *seen, const struct motion *motion, struct findings *out);

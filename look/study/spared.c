@@ -1,6 +1,5 @@
 #include "look/study/spared.h"
 
-#include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -144,18 +143,22 @@ static struct rule rule_of_kind(const struct spared *s, uint32_t lit)
 	return r;
 }
 
-static void write_rule(const struct rule *r, const char *of, FILE *out)
+static void find_rule(const struct rule *r, uint32_t lit, const struct spared_entry *e, const char *of,
+                      struct findings *out)
 {
-	fprintf(out, "  - role: %s\n    confidence: %.2f\n    why: \"in %.0f %% of %u %s it %s\"\n",
-	        r->decided ? "spared" : "blocker of light", r->share * (1 - 0.5 / (1 + r->frames)), 100 * r->share,
-	        r->frames, of,
-	        !r->decided ? "stands in the lit world and shuts out no light" :
-	                      "would shut out light of what OpenGL lights, or stands beyond it");
+	struct finding *rule = findings_add(out, FINDINGS_SURFACES, r->decided ? "spared" : "blocker of light");
+
+	finding_explain(rule, r->share * (1 - 0.5 / (1 + r->frames)), "in %.0f %% of %u %s it %s", 100 * r->share, r->frames,
+	                of, r->decided ? "would shut out light of what OpenGL lights, or stands beyond it" :
+	                                 "stands in the lit world and shuts out no light");
+	if (e)
+		FINDING_MATCH(rule, FINDING_HASHED(e->is_texture ? "texture" : "mesh", e->hash));
+	FINDING_MATCH(rule, FINDING_IS("lit", lit));
+	FINDING_SET(rule, FINDING_NAMED("passes", spare_name(r->decided | SCENE_ONE_SIDED)));
 }
 
-/* Rules of meshes or of textures that differ from what would be without. out: NULL: they are only counted. @return how
- * many */
-static unsigned write_exceptions(const struct spared *s, uint32_t is_texture, FILE *out)
+/* Rules for the meshes, or the textures, that differ from their kind. */
+static void find_exceptions(const struct spared *s, uint32_t is_texture, struct findings *out)
 {
 	const struct rule kinds[2] = { rule_of_kind(s, 0), rule_of_kind(s, 1) };
 	unsigned n = 0;
@@ -167,40 +170,20 @@ static unsigned write_exceptions(const struct spared *s, uint32_t is_texture, FI
 		if (e->is_texture != is_texture || r.decided == without.decided || (e->frames < 2 && s->frames > 1 && !is_texture))
 			continue;
 		n++;
-		if (!out)
-			continue;
-		write_rule(&r, "frames", out);
-		fprintf(out, "    match: { %s: \"%016" PRIx64 "%016" PRIx64 "\", lit: %s }\n    passes: %s\n",
-		        is_texture ? "texture" : "mesh", e->hash[1], e->hash[0], e->lit ? "yes" : "no",
-		        spare_name(r.decided | SCENE_ONE_SIDED));
+		find_rule(&r, e->lit, e, "frames", out);
 	}
-	return n;
 }
 
-static unsigned write_all(const struct spared *s, FILE *out)
+void spared_find(const struct spared *s, struct findings *out)
 {
-	unsigned n = 0;
-
 	if (!s->any)
-		return 0;
+		return;
 	for (uint32_t lit = 0; lit < 2; lit++) {
 		const struct rule r = rule_of_kind(s, lit);
 
-		n += r.frames > 0;
-		if (!r.frames || !out)
-			continue;
-		write_rule(&r, lit ? "cases that are lit" : "cases that are not lit", out);
-		fprintf(out, "    match: { lit: %s }\n    passes: %s\n", lit ? "yes" : "no", spare_name(r.decided | SCENE_ONE_SIDED));
+		if (r.frames)
+			find_rule(&r, lit, NULL, lit ? "cases that are lit" : "cases that are not lit", out);
 	}
-	return n + write_exceptions(s, 1, out) + write_exceptions(s, 0, out);
-}
-
-unsigned spared_count(const struct spared *s)
-{
-	return write_all(s, NULL);
-}
-
-void spared_write(const struct spared *s, FILE *out)
-{
-	write_all(s, out);
+	find_exceptions(s, 1, out);
+	find_exceptions(s, 0, out);
 }

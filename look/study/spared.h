@@ -9,9 +9,9 @@
 #pragma once
 
 #include <stdint.h>
-#include <stdio.h>
 
 #include "base/table.h"
+#include "look/findings.h"
 #include "scene/scene.h"
 
 enum { SPARED_BITS = 2 };
@@ -38,9 +38,8 @@ struct spared {
 int spared_add(struct spared *s, const struct scene *scene);
 void spared_free(struct spared *s);
 
-/** How many rules there are; none where no frame spares anything. */
-unsigned spared_count(const struct spared *s);
-
-/** Entries of the list `surfaces`, the general ones first; they belong before those that know what is no blocker at
- * all. */
-void spared_write(const struct spared *s, FILE *out);
+/**
+ * Rules for surfaces, general ones first; none if no frame spares anything. They must precede the rules for surfaces
+ * that never block light.
+ */
+void spared_find(const struct spared *s, struct findings *out);

@@ -4,16 +4,17 @@
 
 #include "base/err.h"
 #include "look/gloss.h"
+#include "look/study/anchors.h"
 #include "look/study/baked.h"
 #include "look/study/cast.h"
 #include "look/study/dome.h"
-#include "look/study/findings.h"
 #include "look/study/floor.h"
 #include "look/study/lamps.h"
 #include "look/study/lightmaps.h"
 #include "look/matrix.h"
 #include "look/study/mirrors.h"
 #include "look/study/motion.h"
+#include "look/study/relight.h"
 #include "look/study/roles.h"
 #include "look/study/seen.h"
 #include "look/study/shadows.h"
@@ -22,7 +23,6 @@
 #include "look/study/sun.h"
 #include "look/study/tricks.h"
 #include "look/study/volumes.h"
-#include "look/study/world.h"
 
 /* The sine of the lowest height of a sun that lights the ground. */
 #define LOWEST_SUN 0.1
@@ -79,14 +79,17 @@ static void note_gloss(struct study *study, const struct scene *scene)
 	}
 }
 
-static void write_gloss(const struct study *study, FILE *out)
+static void find_gloss(const struct study *study, struct findings *out)
 {
-	if (study->glossy)
-		fprintf(out,
-		        "gloss:\n  role: highlights\n  confidence: 0.5\n  why: \"%u of %u materials that are lit have "
-		        "highlights sharp enough to mirror what is near\"\n"
-		        "  share: 1\n",
-		        study->glossy, study->lit);
+	struct finding *rule;
+
+	if (!study->glossy)
+		return;
+	rule = findings_add(out, FINDINGS_GLOSS, "highlights");
+	FINDING_SET(rule, FINDING_NUMBER("confidence", 1, 0.5));
+	finding_say(rule, "%u of %u materials that are lit have highlights sharp enough to mirror what is near",
+	            study->glossy, study->lit);
+	FINDING_SET(rule, FINDING_NUMBER("share", 1, 1));
 }
 
 int study_add(struct study *study, const struct scene *scene)
@@ -132,7 +135,7 @@ int study_finish(struct study *study)
  * the world's */
 static void find_shining(const struct study *study, double up[3], int *is_sunny, int *has_lamps)
 {
-	const int is_dark = dome_is_wanted(&study->dome) && !study->lightmaps.n && !findings_relights(&study->solved);
+	const int is_dark = dome_is_wanted(&study->dome) && !study->lightmaps.n && !relight_is_known(&study->solved);
 	double towards[3];
 
 	*is_sunny = is_dark && dome_find_up(&study->dome, up) && sun_is_there(&study->sun, towards) &&
@@ -140,7 +143,7 @@ static void find_shining(const struct study *study, double up[3], int *is_sunny,
 	*has_lamps = is_dark && lamps_count(&study->lamps, &study->motion);
 }
 
-int study_write(const struct study *study, const char *trace, FILE *out)
+int study_find(const struct study *study, struct findings *out)
 {
 	const struct motion *m = &study->motion;
 	const struct lightmaps *maps = study->lightmaps.n ? &study->lightmaps : &study->baked;
@@ -149,38 +152,27 @@ int study_write(const struct study *study, const char *trace, FILE *out)
 
 	find_shining(study, up, &is_sunny, &has_lamps);
 	shines = is_sunny || has_lamps;
-	fprintf(out, "# Rules for %s, written by relume look after it studied %zu frames", trace, m->n_frames);
-	if (m->n_frames)
-		fprintf(out, " (%llu to %llu)", (unsigned long long)m->cameras[0].frame,
-		        (unsigned long long)m->cameras[m->n_frames - 1].frame);
-	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: what stands here counts.\n");
-	world_report(m, out);
-	fprintf(out, "replace: yes # no: tricks stay as they are\n");
-	fprintf(out, study->tricks.n || study->lightmaps.n || findings_relights(&study->solved) ||
-	                             spared_count(&study->spared) || roles_count(&study->roles, m) ||
-	                             cast_write(&study->cast, NULL) || floors_write(&study->floors, NULL) || shines ?
-	                     "surfaces:\n" :
-	                     "surfaces: []\n");
-	spared_write(&study->spared, out);
-	findings_write_surfaces(&study->tricks, maps, &study->solved, out);
+	anchors_summarize(m, &out->summary);
+	spared_find(&study->spared, out);
+	relight_find_surfaces(&study->tricks, maps, &study->solved, out);
 	if (shines)
-		sun_write_surfaces(out);
-	roles_write(&study->roles, m, shines || (maps == &study->baked && findings_relights(&study->solved)), out);
-	cast_write(&study->cast, out);
-	floors_write(&study->floors, out);
+		sun_find_surfaces(out);
+	roles_find(&study->roles, m, shines || (maps == &study->baked && relight_is_known(&study->solved)), out);
+	cast_find(&study->cast, out);
+	floors_find(&study->floors, out);
 	if (shines)
-		lamps_write_surfaces(&study->lamps, m, out);
-	err = seen_write(&study->seen, m, out);
-	findings_write_lights(&study->tricks, maps, &study->solved, shines, out);
+		lamps_find_surfaces(&study->lamps, m, out);
+	err = seen_find(&study->seen, m, out);
+	relight_find_lights(&study->tricks, maps, &study->solved, out);
 	if (shines)
-		sun_write_ambient(&study->sun, is_sunny ? up : NULL, out);
+		sun_find_ambient(&study->sun, is_sunny ? up : NULL, out);
 	if (is_sunny)
-		sun_write_light(&study->sun, up, out);
+		sun_find_light(&study->sun, up, out);
 	if (has_lamps)
-		lamps_write_lights(&study->lamps, m, out);
-	if (!findings_relights(&study->solved))
-		dome_write(&study->dome, out);
-	write_gloss(study, out);
-	world_write(m, out);
-	return err;
+		lamps_find_lights(&study->lamps, m, out);
+	if (!relight_is_known(&study->solved))
+		dome_find(&study->dome, out);
+	find_gloss(study, out);
+	anchors_find(m, out);
+	return err ? err : findings_check(out);
 }

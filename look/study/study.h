@@ -1,13 +1,13 @@
 /*
- * A recording, studied: scene after scene goes in, rules (look/rules.h) come out.
+ * A recording, studied: scene after scene goes in, findings (look/findings.h) come out.
  *
  * motion.h finds the camera and what moves; the other files look at what was drawn in its light.
  */
 #pragma once
 
 #include <stdint.h>
-#include <stdio.h>
 
+#include "look/findings.h"
 #include "scene/scene.h"
 
 struct study;
@@ -30,8 +30,8 @@ int study_add(struct study *study, const struct scene *scene);
 int study_finish(struct study *study);
 
 /**
- * Write the rules, each with its role, its confidence and why.
- * @param trace  the recording's name, for the file's reader
+ * Find the rules, each with its role, its confidence and why.
+ * @param out  empty; findings_free in any case
  * @return 0 or ERR_SYSTEM (reported)
  */
-int study_write(const struct study *study, const char *trace, FILE *out);
+int study_find(const struct study *study, struct findings *out);

@@ -205,10 +205,15 @@ int sun_is_there(const struct sun *sun, double towards[3])
 	       sun->open > OPEN * sun->places && matrix_normalize3(towards);
 }
 
-void sun_write_surfaces(FILE *out)
+void sun_find_surfaces(struct findings *out)
 {
-	fprintf(out, "  - role: lit anew\n    confidence: 0.8\n    why: \"OpenGL lights nothing, and there is a light\"\n"
-	        "    match: { lit: no, blended: no, depth_tested: yes, stencil_tested: no, parallel: no }\n    lit: yes\n");
+	struct finding *rule = findings_add(out, FINDINGS_SURFACES, "lit anew");
+
+	FINDING_SET(rule, FINDING_NUMBER("confidence", 1, 0.8));
+	finding_say(rule, "OpenGL lights nothing, and there is a light");
+	FINDING_MATCH(rule, FINDING_IS("lit", 0), FINDING_IS("blended", 0), FINDING_IS("depth_tested", 1),
+	              FINDING_IS("stencil_tested", 0), FINDING_IS("parallel", 0));
+	FINDING_SET(rule, FINDING_IS("lit", 1));
 }
 
 static double strength_of(const double towards[3], const double up[3])
@@ -216,33 +221,34 @@ static double strength_of(const double towards[3], const double up[3])
 	return fmin(STRONGEST, SHARE / fmax(0.1, matrix_dot3(up, towards)));
 }
 
-void sun_write_light(const struct sun *sun, const double up[3], FILE *out)
+void sun_find_light(const struct sun *sun, const double up[3], struct findings *out)
 {
 	double towards[3], strength;
+	struct finding *rule;
 
 	if (!sun_is_there(sun, towards))
 		return;
 	strength = strength_of(towards, up);
-	fprintf(out,
-	        "  - role: sun\n    confidence: %.2f\n"
-	        "    why: \"in %u of %u frames the sky has a small white spot there, and %u of %u places in sight are "
-	        "open to it\"\n"
-	        "    on: unlit\n    space: world\n    position: [%.5f, %.5f, %.5f, 0]\n    diffuse: [%.3f, %.3f, "
-	        "%.3f]\n    specular: [0, 0, 0]\n    radius: 0.01\n",
-	        (double)sun->frames / sun->skies * sun->open / sun->places, sun->frames, sun->skies, sun->open,
-	        sun->places, towards[0], towards[1], towards[2], strength, strength, strength);
+	rule = findings_add(out, FINDINGS_LIGHTS, "sun");
+	finding_explain(rule, (double)sun->frames / sun->skies * sun->open / sun->places,
+	                "in %u of %u frames the sky has a small white spot there, and %u of %u places in sight are open to "
+	                "it", sun->frames, sun->skies, sun->open, sun->places);
+	FINDING_SET(rule, FINDING_NAMED("on", "unlit"), FINDING_NAMED("space", "world"),
+	            FINDING_PLACE("position", -5, towards, 0), FINDING_VECTOR("diffuse", -3, strength, strength, strength),
+	            FINDING_VECTOR("specular", 1, 0, 0, 0), FINDING_NUMBER("radius", 1, 0.01));
 }
 
-void sun_write_ambient(const struct sun *sun, const double *up, FILE *out)
+void sun_find_ambient(const struct sun *sun, const double *up, struct findings *out)
 {
+	static const double above[3] = { 0, 1, 0 };
+	struct finding *rule = findings_add(out, FINDINGS_LIGHTS, "ambient light");
 	double towards[3], ambient = WITHOUT;
 
 	if (up && sun_is_there(sun, towards))
 		ambient = 1 - strength_of(towards, up) * matrix_dot3(up, towards);
-	fprintf(out,
-	        "  - role: ambient light\n    confidence: 0.5\n    why: \"as much as leaves level ground about as "
-	        "bright as it was\"\n    on: unlit\n"
-	        "    space: world\n    position: [0, 1, 0, 0]\n    ambient: [%.3f, %.3f, %.3f]\n    diffuse: [0, 0, "
-	        "0]\n    specular: [0, 0, 0]\n",
-	        ambient, ambient, ambient);
+	FINDING_SET(rule, FINDING_NUMBER("confidence", 1, 0.5));
+	finding_say(rule, "as much as leaves level ground about as bright as it was");
+	FINDING_SET(rule, FINDING_NAMED("on", "unlit"), FINDING_NAMED("space", "world"),
+	            FINDING_PLACE("position", 1, above, 0), FINDING_VECTOR("ambient", -3, ambient, ambient, ambient),
+	            FINDING_VECTOR("diffuse", 1, 0, 0, 0), FINDING_VECTOR("specular", 1, 0, 0, 0));
 }

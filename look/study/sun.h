@@ -5,8 +5,8 @@
 #pragma once
 
 #include <stdint.h>
-#include <stdio.h>
 
+#include "look/findings.h"
 #include "look/study/motion.h"
 #include "scene/scene.h"
 
@@ -35,11 +35,11 @@ int sun_add(struct sun *sun, const struct scene *scene, const struct motion *mot
 /** Whether there is one. towards: receives the unit vector, in the world */
 int sun_is_there(const struct sun *sun, double towards[3]);
 
-/** The entry of the list `surfaces`: what the sun, or lamps, light. */
-void sun_write_surfaces(FILE *out);
+/** The rule for surfaces that the sun or lamps light. */
+void sun_find_surfaces(struct findings *out);
 
-/** The sun's entry of the list `lights`. up: the world's, by which level ground keeps its brightness */
-void sun_write_light(const struct sun *sun, const double up[3], FILE *out);
+/** The rule for the sun's light. @param up  the world's up; level ground keeps its brightness */
+void sun_find_light(const struct sun *sun, const double up[3], struct findings *out);
 
-/** What shines from all sides on what the sun, or lamps, light. up: as above; NULL: it is lamps alone */
-void sun_write_ambient(const struct sun *sun, const double *up, FILE *out);
+/** The rule for the ambient light beside the sun or lamps. @param up  as above; NULL: there are lamps, but no sun */
+void sun_find_ambient(const struct sun *sun, const double *up, struct findings *out);

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "look/study/findings.h"
+#include "look/study/relight.h"
 #include "tests/case.h"
 
 /*
@@ -49,6 +49,7 @@ START_TEST(test_one_rule_for_all_planes)
 	struct tricks t = { .n = 0 };
 	struct lightmaps maps = { .n_units = 0 };
 	struct solved solved = { .n = 0 };
+	struct findings findings = { .n = 0 };
 	char *text = NULL;
 	size_t size;
 	FILE *out = open_memstream(&text, &size);
@@ -56,7 +57,10 @@ START_TEST(test_one_rule_for_all_planes)
 	for (int i = 0; i < 5; i++)
 		tricks_note(&t, &(struct trick_found){ .kind = TRICK_PLANAR_SHADOW, .light = { 0, 5, 0, 1 }, .plane = { 0, 1, 0, i },
 		            .has_opengl_light = i != 4 }, 1);
-	findings_write_surfaces(&t, &maps, &solved, out);
+	relight_find_surfaces(&t, &maps, &solved, &findings);
+	ck_assert_uint_eq(findings.n, 2);
+	ck_assert_int_eq(findings_check(&findings), 0);
+	findings_write(&findings, "a.trace", out);
 	fclose(out);
 	const char *first = strstr(text, "role:"), *second = first ? strstr(first + 1, "role:") : NULL;
 
@@ -67,6 +71,7 @@ START_TEST(test_one_rule_for_all_planes)
 	ck_assert(strstr(text, "left_out: yes") < second);
 	ck_assert_ptr_nonnull(strstr(second, "plane: [0, 1, 0, 4]"));
 	free(text);
+	findings_free(&findings);
 }
 END_TEST
 

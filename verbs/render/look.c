@@ -10,6 +10,7 @@
 #include "base/part.h"
 #include "base/plural.h"
 #include "base/verbs.h"
+#include "look/findings.h"
 #include "look/rules.h"
 #include "look/study/study.h"
 #include "scene/release.h"
@@ -84,35 +85,32 @@ static int play(struct replay *replay, const char *trace, const struct frame_lis
 	return err ? err : more < 0 ? more : 0;
 }
 
-static int study_trace(const char *trace, const struct frame_list *frames, struct study **study)
+/* out: empty; findings_free in any case */
+static int study_trace(const char *trace, const struct frame_list *frames, struct findings *out)
 {
 	struct replay *replay = NULL;
-	int err = study_create(study);
+	struct study *study = NULL;
+	int err = study_create(&study);
 
 	if (!err)
 		err = replay_open(&replay, trace);
 	if (!err)
-		err = play(replay, trace, frames, *study);
+		err = play(replay, trace, frames, study);
+	if (!err)
+		err = study_find(study, out);
 	replay_close(&replay);
+	study_destroy(&study);
 	return err;
 }
 
 int look_study(const char *trace, const struct frame_list *frames, struct look **look)
 {
-	struct study *study = NULL;
-	char *text = NULL;
-	size_t n = 0;
-	FILE *memory = open_memstream(&text, &n);
-	int err = memory ? study_trace(trace, frames, &study) : err_report(ERR_SYSTEM, NULL, "out of memory");
+	struct findings findings = { .n = 0 };
+	int err = study_trace(trace, frames, &findings);
 
 	if (!err)
-		err = study_write(study, trace, memory);
-	if (memory && fclose(memory))
-		err = err_report(ERR_SYSTEM, NULL, "out of memory");
-	if (!err)
-		err = rules_parse("--look auto", text, n, look);
-	free(text);
-	study_destroy(&study);
+		err = rules_from_findings("--look auto", &findings, look);
+	findings_free(&findings);
 	return err;
 }
 
@@ -128,7 +126,7 @@ int look_fetch_unseen(struct replay *replay, struct look *look)
 	return more < 0 ? more : 0;
 }
 
-static int write_rules(const struct study *study, const char *trace, const char *path)
+static int write_rules(const struct findings *findings, const char *trace, const char *path)
 {
 	struct part_file file;
 	int err = folder_make_for(path);
@@ -137,8 +135,8 @@ static int write_rules(const struct study *study, const char *trace, const char 
 		err = part_open(&file, path);
 	if (err)
 		return err;
-	err = study_write(study, trace, file.stream);
-	return part_close(&file, err);
+	findings_write(findings, trace, file.stream);
+	return part_close(&file, 0);
 }
 
 /* The frame that a sheet shows: the first one asked for, or the middle of all. */
@@ -176,12 +174,12 @@ static int write_sheet(const struct asked *asked, const char *trace)
 
 static int study_and_write(const struct asked *asked, const char *trace)
 {
-	struct study *study = NULL;
-	int err = study_trace(trace, &asked->frames, &study);
+	struct findings findings = { .n = 0 };
+	int err = study_trace(trace, &asked->frames, &findings);
 
 	if (!err)
-		err = write_rules(study, trace, asked->output);
-	study_destroy(&study);
+		err = write_rules(&findings, trace, asked->output);
+	findings_free(&findings);
 	return err;
 }
 

@@ -1,6 +1,6 @@
-#include "look/study/world.h"
+#include "look/study/anchors.h"
 
-#include <inttypes.h>
+#include <string.h>
 
 enum { MAX_ANCHORS = 64, ANCHORS_OF_A_FRAME = 4 };
 
@@ -14,56 +14,49 @@ static size_t count_deforming(const struct motion *m)
 	return n;
 }
 
-void world_report(const struct motion *m, FILE *out)
+void anchors_summarize(const struct motion *m, struct findings_summary *out)
 {
-	size_t still = 0, moving = 0, carried = 0, once = 0, moved = 0, known = 0;
 	double share = 0;
 
+	*out = (struct findings_summary){ .frames = m->n_frames, .deforming = count_deforming(m) };
+	if (m->n_frames) {
+		out->first = m->cameras[0].frame;
+		out->last = m->cameras[m->n_frames - 1].frame;
+	}
 	for (size_t i = 0; i < m->n_frames; i++) {
-		moved += (size_t)m->cameras[i].moved;
-		known += (size_t)m->cameras[i].witnessed;
+		out->moved += (size_t)m->cameras[i].moved;
+		out->known += (size_t)m->cameras[i].witnessed;
 		share += m->cameras[i].share;
 	}
+	if (out->known)
+		out->percent = 100 * share / (double)out->known;
 	for (size_t i = 0; i < m->n_things; i++) {
 		const struct motion_thing *t = &m->things[i];
 
 		if (!t->again)
-			once++;
+			out->once++;
 		else if (t->still == t->again)
-			still++;
+			out->still++;
 		else if (2 * t->carried >= t->again)
-			carried++;
+			out->carried++;
 		else
-			moving++;
+			out->moving++;
 	}
-	if (!known)
-		fprintf(out, "# camera: unknown, as no mesh was drawn twice\n");
-	else
-		fprintf(out,
-		        "# camera: followed through %zu of %zu frames, moves in %zu; %.0f %% of what is seen again, by "
-		        "size, stands still\n",
-		        known, m->n_frames, moved, 100 * share / (double)known);
-	fprintf(out,
-	        "# meshes: %zu static, %zu moving, %zu with the viewer, %zu seen in one frame; %zu deforming shapes\n",
-	        still, moving, carried, once, count_deforming(m));
 }
 
-static void write_anchor(const struct motion_thing *t, const uint64_t hash[2], int *begun, FILE *out)
+static void add_anchor(const struct motion_thing *t, const uint64_t hash[2], struct findings *out)
 {
-	if (!*begun)
-		fprintf(out, "world:\n");
-	*begun = 1;
-	fprintf(out, "  - mesh: \"%016" PRIx64 "%016" PRIx64 "\"\n    at: [", hash[1], hash[0]);
-	for (int i = 0; i < 16; i++)
-		fprintf(out, "%s%.9g", i ? ", " : "", t->world[i]);
-	fprintf(out, "]\n    part: %u\n", t->part);
+	struct finding *rule = findings_add(out, FINDINGS_WORLD, NULL);
+	struct finding_value at = { .key = "at", .type = FINDING_NUMBERS, .digits = 9, .n = 16 };
+
+	memcpy(at.numbers, t->world, sizeof(at.numbers));
+	FINDING_SET(rule, FINDING_HASHED("mesh", hash), at, FINDING_COUNTED("part", t->part));
 }
 
 /* Those seen in most frames first; then each that shows a frame which has too few. */
-void world_write(const struct motion *m, FILE *out)
+void anchors_find(const struct motion *m, struct findings *out)
 {
 	unsigned have[MOTION_MAX_FRAMES] = { 0 }, n = 0;
-	int begun = 0;
 
 	for (uint32_t least = (uint32_t)m->n_frames; least > 0 && n < MAX_ANCHORS; least--)
 		for (size_t i = 0; i < m->n_things && n < MAX_ANCHORS; i++) {
@@ -78,9 +71,9 @@ void world_write(const struct motion *m, FILE *out)
 				continue;
 			for (size_t f = 0; f < m->n_frames; f++)
 				have[f] += t->seen[f / 64] >> f % 64 & 1;
-			write_anchor(t, t->mesh, &begun, out);
+			add_anchor(t, t->mesh, out);
 			if (t->turned[0] | t->turned[1])
-				write_anchor(t, t->turned, &begun, out);
+				add_anchor(t, t->turned, out);
 			n++;
 		}
 }
