@@ -4,7 +4,7 @@
 
 enum { MAX_ANCHORS = 64, ANCHORS_OF_A_FRAME = 4 };
 
-/* Of shapes that change in most of their frames. */
+/* The number of shapes that change in most of their frames. */
 static size_t count_deforming(const struct motion *m)
 {
 	size_t n = 0;
@@ -53,7 +53,7 @@ static void add_anchor(const struct motion_thing *t, const uint64_t hash[2], str
 	FINDING_SET(rule, FINDING_HASHED("mesh", hash), at, FINDING_COUNTED("part", t->part));
 }
 
-/* Those seen in most frames first; then each that shows a frame which has too few. */
+/* Meshes seen in the most frames come first, then those that bring a frame up to ANCHORS_OF_A_FRAME. */
 void anchors_find(const struct motion *m, struct findings *out)
 {
 	unsigned have[MOTION_MAX_FRAMES] = { 0 }, n = 0;

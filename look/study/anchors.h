@@ -1,4 +1,4 @@
-/* The camera and the world, as a study knows them: a summary, and what stands still as anchors. */
+/* The camera and the meshes that stand still, which anchor each frame in the world. */
 #pragma once
 
 #include "look/findings.h"
@@ -7,5 +7,5 @@
 /** How the camera moves and how many meshes stand still. */
 void anchors_summarize(const struct motion *m, struct findings_summary *out);
 
-/** The rules `world`: enough meshes that stand still for each frame to show some. None if none is known. */
+/** The rules `world`: enough static meshes that each frame shows some. None if none is known. */
 void anchors_find(const struct motion *m, struct findings *out);

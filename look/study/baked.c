@@ -12,14 +12,14 @@
 #include "look/matrix.h"
 
 enum { MOST_VERTICES = 200000 };
-/* A vertex is asked about a little within its triangles: beyond its edges other walls begin. */
+/* Samples lie this far inside a vertex's triangles: beyond an edge another wall may begin. */
 #define WITHIN 0.01
-/* Triangles about a vertex are one surface within 26 degrees. */
+/* Triangles around a vertex are one surface if their normals are within 26 degrees. */
 #define SAME_SURFACE 0.9
-/* Colours of a mesh that differ by less are one colour. */
+/* Colours of a mesh that differ by less are the same colour. */
 #define VARIES 0.05f
 
-/* 1 where a draw's colours may be light: as they are, or times a texture. */
+/* 1 if a draw's colours may be light, either alone or times a texture. */
 static int may_be_baked(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_material *m = &s->materials[in->material];
@@ -47,9 +47,9 @@ static int varies(const struct scene_mesh *mesh)
 	return 0;
 }
 
-/* What a vertex's triangles say of it. */
+/* Sums over the triangles around a vertex. */
 struct corner {
-	double normal[3], middle[3]; /* sums, in the world; twice the triangles' areas are the weights */
+	double normal[3], middle[3]; /* in the world, weighted by twice the triangles' areas */
 	double area;
 };
 

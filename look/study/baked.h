@@ -1,11 +1,11 @@
 /*
- * Light in vertex colours: a program that knows no lightmaps may bake light into the colours of what stands still and
- * OpenGL does not light. Each vertex is a place in the world, its normal, and how much light falls there, as a
- * lightmap's texel is. Paint looks the same here: it is told apart as no lights explain it (findings.h).
+ * Light in vertex colours. A program without lightmaps may bake light into the colours of static meshes that OpenGL
+ * does not light. Each vertex gives a place in the world, its normal, and the light that falls there, like a texel of
+ * a lightmap. Painted colours look the same at this stage; relight.h rejects them, because no lights explain them.
  */
 #pragma once
 
 #include "look/study/lightmaps.h"
 
-/** Study one more frame, after motion_add; vertices go where texels would. @return 0 or ERR_SYSTEM (reported) */
+/** Study one more frame, after motion_add; vertices are added as texels. @return 0 or ERR_SYSTEM (reported) */
 int baked_add(struct lightmaps *l, const struct scene *scene, const struct motion *motion);

@@ -7,16 +7,16 @@ struct box {
 	double low[3], high[3];
 };
 
-/* Around nothing. */
+/* Encloses nothing. */
 extern const struct box box_empty;
 
 void box_widen(struct box *b, const double at[3]);
 
 /**
- * Around a mesh's points.
- * @param place  4 x 4, from the mesh to where it is looked at
+ * The box around a mesh's points.
+ * @param place  4 x 4, from the mesh to the space of the box
  */
 struct box box_of(const struct scene_mesh *mesh, const double place[16]);
 
-/** Its middle and the length of its diagonal; both 0 where it is around nothing. */
+/** The middle of a box and the length of its diagonal; both are 0 for an empty box. */
 double box_measure(const struct box *b, double middle[3]);

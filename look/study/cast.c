@@ -10,16 +10,16 @@
 #include "look/study/box.h"
 #include "look/matrix.h"
 
-/* A texture of a shadow leaves this much along its edge, and no more than that in its middle. */
+/* A shadow texture keeps at least NEUTRAL of the light along its edge and at most DARK in its middle. */
 #define NEUTRAL 0.95
 #define DARK 0.75
-/* The thing is so near to the texture's middle, in its size. */
+/* The object is this near to the texture's middle, as a share of the texture's size. */
 #define MIDDLE 0.1
 #define SAME 1e-4f
 
 /* --- What a unit does -------------------------------------------------------------------------------------------- */
 
-/* What a texel leaves of the light; 2: the unit does something else. */
+/* The factor by which a texel dims the light; 2 if the unit does something else. */
 static double factor_of(const struct scene_unit *u, const uint8_t *texel)
 {
 	uint32_t operand = GL_SRC_COLOR;
@@ -41,7 +41,7 @@ static double factor_of(const struct scene_unit *u, const uint8_t *texel)
 	return (abs((int)operand - texel[0]) + abs((int)operand - texel[1]) + abs((int)operand - texel[2])) / 765.0;
 }
 
-/* 1 where a unit darkens in the middle of its texture, and nowhere along the edge, beyond which the edge goes on. */
+/* 1 if a unit darkens in the middle of its texture and nowhere along the edge, which is extended beyond it. */
 static int is_blob(const struct scene *s, const struct scene_unit *u)
 {
 	const struct scene_texture *t = s->textures[u->texture];
@@ -62,7 +62,7 @@ static int is_blob(const struct scene *s, const struct scene_unit *u)
 
 /* --- Where it falls ---------------------------------------------------------------------------------------------- */
 
-/* 1 where a unit's coordinates are the points' own places. */
+/* 1 if a unit's coordinates are the positions of the points. */
 static int is_by_place(const struct scene_mesh *mesh, const struct scene_unit *u)
 {
 	const float *c = mesh->texcoord[u->unit];
@@ -77,7 +77,8 @@ static int is_by_place(const struct scene_mesh *mesh, const struct scene_unit *u
 	return 1;
 }
 
-/* What leads from eye space to a unit's coordinates, before its matrix. @return 0: they do not come of places */
+/* The matrix from eye space to a unit's coordinates, before the unit's own matrix. @return 0: the coordinates do not
+ * depend on position */
 static int find_coordinates(const struct scene *s, const struct scene_instance *in, const struct scene_unit *u,
                             double out[16])
 {
@@ -125,7 +126,7 @@ static int has_texture(const struct scene *s, const struct scene_instance *in, u
 	return 0;
 }
 
-/* 1 where something solid that has not the texture itself is in the middle of where it falls. */
+/* 1 if the middle of the cast texture falls on something solid that does not have the texture itself. */
 static int has_thing(const struct scene *s, const struct scene_instance *in, const struct scene_unit *u)
 {
 	double coordinates[16], matrix[16], all[16];
@@ -163,7 +164,7 @@ static struct cast_texture *entry_of(struct cast *c, const uint64_t hash[2], uin
 	return &c->textures[c->n++];
 }
 
-/* A unit of a lit draw: the first such draw of a frame tells for all. */
+/* Note one unit of a lit draw. The first draw of a frame that has the texture decides for the frame. */
 static void note_unit(struct cast *c, const struct scene *s, const struct scene_instance *in,
                       const struct scene_unit *u)
 {

@@ -1,7 +1,6 @@
 /*
- * A thing's shadow as a texture that is thrown onto the ground: a unit's coordinates are made of each point's place,
- * the texture is dark in its middle alone, and the thing is where that falls. What a unit holds so is no colour of the
- * ground.
+ * Shadows cast as a texture. A unit's coordinates are computed from each point's position, the texture is dark only
+ * in its middle, and the object is where that middle falls. Such a unit holds no colour of the ground.
  */
 #pragma once
 
@@ -10,12 +9,12 @@
 
 enum { CAST_MOST = 16 };
 
-/* All zero: nothing was seen. */
+/* All zero: empty. */
 struct cast {
 	struct cast_texture {
 		uint64_t hash[2];
-		uint32_t unit, frames, last; /* unit: its number; last: number of the frame that told it last, counted from 1 */
-		uint32_t thrown, others;     /* lit draws that have it in this unit */
+		uint32_t unit, frames, last; /* unit: its number; last: the last frame that showed it, counted from 1 */
+		uint32_t thrown, others;     /* lit draws that have it in this unit: shadows, and others */
 	} textures[CAST_MOST];
 	unsigned n;
 	uint32_t frames;

@@ -8,24 +8,23 @@
 #include "look/study/layer.h"
 #include "look/matrix.h"
 
-/* Surfaces are asked about at so many of their triangles. */
+/* At most this many triangles of a surface are sampled. */
 enum { MOST_TRIANGLES = 64 };
-/* And so many pictures of a sky, at so many of their texels. */
+/* At most this many pictures of a sky, and this many texels of each. */
 enum { SKIES = 64, SKY_TEXELS = 1024 };
-/* How much of a sky's colour its light has: OpenGL's textures have some already. */
+/* How much of a sky's colour its light takes; textures often contain some of it already. */
 #define TINT 0.3
-/* Where OpenGL lights more than this share of what is solid, its lights are those of the scene. */
+/* If OpenGL lights more than this share of the solid surfaces, its lights are the scene's. */
 #define MOST_LIT 0.05
-/* How far off things dim the light, in half the window's width where they stand. */
+/* The distance up to which things dim the light, in half widths of the window at their depth. */
 #define REACH 0.6
 #define REACH_LIT 1.2
-/* Upright within 60 degrees of the window's own up; one floor within 8 degrees. */
+/* Upright: within 60 degrees of the window's up. Normals within 8 degrees belong to one floor. */
 #define UPRIGHT 0.5
 #define SAME_UP 0.99
-/* How much of it counts where OpenGL lights a surface: its lights are most of what is there, ambient light is the
- * rest. */
+/* The weight of this light on surfaces that OpenGL lights; their own lights account for most of the rest. */
 #define LIT_SHARE 0.8
-/* A floor has at least this share of what is seen. */
+/* A floor covers at least this share of the window. */
 #define LEAST_FLOOR 0.08
 
 static void note_size(double sizes[DOME_SIZES], double size, double weight)
@@ -53,7 +52,7 @@ static void note_up(struct dome *d, const double normal[3], double weight)
 	d->ups[i].weight += weight;
 }
 
-/* The window's own up, in eye space: the camera may be in the projection. */
+/* The window's up direction in eye space; the camera may be in the projection. */
 static void window_up(const struct scene_view *view, double out[3])
 {
 	for (int k = 0; k < 3; k++)
@@ -61,7 +60,7 @@ static void window_up(const struct scene_view *view, double out[3])
 	matrix_normalize3(out);
 }
 
-/* times: so many faces it stands for */
+/* times: the number of faces that it represents */
 static void note_face(struct dome *d, const struct scene_view *view, const struct face *face, unsigned times,
                       const double world_from_eye[16])
 {
@@ -108,7 +107,7 @@ static void note_instance(struct dome *d, const struct scene *scene, const struc
 	}
 }
 
-/* The mean colour of a sky's picture. */
+/* Add the mean colour of a sky's picture. */
 static void note_sky(struct dome *d, const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_material *m = &s->materials[in->material];
@@ -154,7 +153,7 @@ int dome_is_wanted(const struct dome *d)
 	return d->unlit > 0 && d->lit <= MOST_LIT * (d->lit + d->unlit);
 }
 
-/* The size that two thirds of what is seen have at most: half of it may be what the viewer holds. */
+/* A size that two thirds of the window do not exceed; as much as half of it may be something held in the hand. */
 static double middle_size(const double sizes[DOME_SIZES])
 {
 	double sum = 0, whole = 0;
@@ -179,7 +178,7 @@ static void find_for_lit(const struct dome *d, struct findings *out)
 	            FINDING_VECTOR("light", 1, 1, 1, 1), FINDING_NUMBER("lit", 6, LIT_SHARE), FINDING_IS("unlit", 0));
 }
 
-/* What most of the level ground says; NULL: there is too little of it */
+/* The up direction that most of the level ground agrees on; NULL: there is too little ground. */
 static const struct dome_up *find_floor(const struct dome *d)
 {
 	const struct dome_up *best = d->n_ups ? &d->ups[0] : NULL;
@@ -198,7 +197,7 @@ int dome_find_up(const struct dome *d, double up[3])
 	return floor != NULL;
 }
 
-/* White, or somewhat of the sky's colour, as bright. */
+/* White, tinted towards the sky's colour at equal brightness. */
 static void find_colors(const struct dome *d, struct finding *out)
 {
 	const double mean = (d->sky[0] + d->sky[1] + d->sky[2]) / 3;

@@ -25,9 +25,9 @@ int face_of(const struct scene_mesh *mesh, const double place[16], uint32_t prim
 	return matrix_normalize3(out->normal);
 }
 
-enum { CORNERS = 9 }; /* of a triangle that five planes cut, and one more */
+enum { CORNERS = 9 }; /* of a triangle clipped by five planes, plus one */
 
-/* Cut a polygon by a side of the view volume: what is there where the sum is not negative. */
+/* Clip a polygon by a side of the view volume; points where the sum is negative are outside. */
 static unsigned cut(double (*p)[4], unsigned n, const double side[4])
 {
 	double out[CORNERS][4];

@@ -10,20 +10,21 @@
 #include "look/study/face.h"
 #include "look/matrix.h"
 
-/* A floor has few triangles. */
+/* A floor has at most this many triangles. */
 enum { MOST_TRIANGLES = 512 };
-/* Neighbours differ by no more than this, of 255, in this share of texels; the mean of the largest channel is at most
- * this. */
+/* In at least LEAST_EVEN of the texels, neighbours differ by at most ALIKE of 255. The mean of each texel's largest
+ * channel is at most DARKEST. */
 enum { ALIKE = 6 };
 #define LEAST_EVEN 0.5
 #define DARKEST 0.3
-/* It has this share of the window, and this share of its draws lie in the plane of a shadow. */
+/* A floor covers at least LEAST_SHARE of the window, and at least LEAST_SHADOWED of its draws lie in the plane of a
+ * shadow. */
 #define LEAST_SHARE 0.08
 #define LEAST_SHADOWED 0.5
-/* What glass and polished stone mirror at 75 degrees, by Fresnel's equations for an index of 1.5. */
+/* Reflectance of glass and polished stone at 75 degrees, by Fresnel's equations for an index of 1.5. */
 #define MIRRORED 0.25
 
-/* 1 where two planes are one, but for the side that they show. */
+/* 1 if two planes are the same, whichever side they show. */
 static int is_same_plane(const double a[4], const double b[4])
 {
 	const double side = matrix_dot3(a, b) < 0 ? -1 : 1;
@@ -39,8 +40,8 @@ static int has_shadow(const struct tricks *t, const double plane[4])
 	return 0;
 }
 
-/* The plane of eye space in which all of a draw lies. share: receives how much of the window it covers. @return 0: it
- * is not flat */
+/* The plane in eye space that contains a whole draw. @param share  receives the share of the window it covers
+ * @return 0: the draw is not flat */
 static int find_plane(const struct scene *s, const struct scene_instance *in, double plane[4], double *share)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
@@ -66,7 +67,7 @@ static int find_plane(const struct scene *s, const struct scene_instance *in, do
 	return found && plane_holds(s, in, rounded);
 }
 
-/* A plane of the world, from one of eye space. */
+/* Transform a plane from eye space to the world. */
 static void into_world(const struct motion *motion, double plane[4])
 {
 	const double *eye = motion_now(motion)->eye_from_world;
@@ -115,7 +116,7 @@ static struct floor_texture *find_texture(struct floors *f, const struct scene_t
 	return &f->textures[f->n++];
 }
 
-/* 1 where a draw may be such a floor: a flat picture that OpenGL does not light. */
+/* 1 if a draw may be such a floor: a flat picture that OpenGL does not light. */
 static int may_be_floor(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_material *m = &s->materials[in->material];

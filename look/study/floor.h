@@ -1,7 +1,7 @@
 /*
- * Floors that are smooth and dark, as polished stone is: they mirror what stands on them. Where OpenGL lights a floor,
- * its specular colour says how it mirrors (look/gloss.h). Where it does not, shadows flattened onto the floor say that
- * things stand on it, and its texture says that it has no grain: grass, cloth and sand have some.
+ * Smooth, dark floors, such as polished stone, which mirror what is on them. If OpenGL lights a floor, its specular
+ * colour gives its reflectance (look/gloss.h). If not, shadows flattened onto it prove that things stand on it, and
+ * its texture must have no grain, unlike grass, cloth and sand.
  */
 #pragma once
 
@@ -12,9 +12,9 @@ enum { FLOORS_MOST = 32 }; /* textures */
 
 struct floor_texture {
 	uint64_t hash[2];
-	double share;       /* of the window, summed over frames */
-	double even, shown; /* shares of texels that are as their neighbours, and the mean of their largest channel */
-	unsigned draws, shadowed; /* of these, such as lie in the plane of a shadow */
+	double share;       /* sum over frames of the share of the window */
+	double even, shown; /* share of texels that resemble their neighbours; mean of the largest channel */
+	unsigned draws, shadowed; /* shadowed: draws that lie in the plane of a shadow */
 };
 
 /* All zero: empty. */

@@ -12,9 +12,10 @@ enum {
 	STATE_LIT = 1, STATE_BLENDED = 2, STATE_ALPHA = 4, STATE_DEPTH = 8, STATE_STENCIL = 16, STATE_MULTIPLIES = 32,
 	STATE_PARALLEL = 64, STATE_UNITS = 128
 };
-/* A mesh is asked about so often what it lies on, in a frame and in all, and a role has so many rules. */
+/* Each mesh is tested for what it lies on at most MOST_IN_FRAME times in a frame and MOST_VOTES times in all. A role
+ * has at most MOST_RULES rules. */
 enum { MOST_IN_FRAME = 4, MOST_VOTES = 48, MOST_RULES = 64 };
-/* Nearly always. */
+/* A kind has a role if at least this share of its draws have it. */
 #define SHARE 0.95
 
 /* --- Votes ------------------------------------------------------------------------------------------------------- */
@@ -65,8 +66,8 @@ static int vote(struct kinds *k, const uint64_t hash[2], uint32_t by, enum kind_
 	return 0;
 }
 
-/* A draw says what its mesh, its last texture and its state are. Textures before the last are of all that shares
- * them. */
+/* A draw votes for its mesh, its last texture and its state. Its earlier textures count as part of the world, since
+ * other draws share them. */
 static int vote_all(struct kinds *k, const struct scene *s, const struct scene_instance *in, enum kind_role role)
 {
 	const struct scene_material *m = &s->materials[in->material];
@@ -95,7 +96,8 @@ static uint32_t votes_of(const struct kind *k)
 	return n;
 }
 
-/* What may be laid on something, and has not been asked about often enough: out[i] LAID_DECAL; else LAID_NOT. */
+/* Candidates for laid_find that have not been tested often enough: out[i] is LAID_DECAL for these, LAID_NOT for the
+ * rest. */
 static int list_candidates(struct kinds *k, const struct scene *s, const uint8_t *layers, uint8_t *out)
 {
 	for (uint32_t i = 0; i < s->n_instances; i++) {
@@ -157,12 +159,12 @@ void kinds_free(struct kinds *k)
 
 /* --- Rules ------------------------------------------------------------------------------------------------------- */
 
-/* A role as rules have it. */
+/* A role and its rule. */
 struct rule {
 	const char *role, *why;
 	struct finding_value sets[3];
-	uint32_t roles; /* bits of enum kind_role: any of them */
-	uint32_t when;  /* bits: 1: what OpenGL does not light stays so; 2: other lights light it */
+	uint32_t roles; /* bits of enum kind_role; any of them suffices */
+	uint32_t when;  /* bit 0: applies where unlit surfaces stay unlit; bit 1: where other lights light them */
 };
 
 #define KEEPS_LIGHT { FINDING_IS("shadows", 0), FINDING_IS("shaded", 0) }
@@ -202,14 +204,14 @@ static int has(const struct kind *k, uint32_t roles)
 	return with && with >= SHARE * votes_of(k);
 }
 
-/* 1 where a rule of a mesh's texture or state says it already. */
+/* 1 if a rule for a mesh's texture or state already covers the mesh. */
 static int is_said(const struct kinds *k, const struct kind *mesh, uint32_t roles)
 {
 	return (mesh->texture && has(&k->list[mesh->texture - 1], roles)) ||
 	       (mesh->state && has(&k->list[mesh->state - 1], roles) && mesh->frames == 1 && k->frames > 1);
 }
 
-/* 1 where a state needs a rule of its own: some mesh that is in one frame alone has it, and no texture tells. */
+/* 1 if a state needs its own rule: a mesh that occurs in one frame only has it, and no texture covers that mesh. */
 static int is_needed(const struct kinds *k, size_t state, uint32_t roles)
 {
 	for (size_t i = 0; i < k->n && k->frames > 1; i++) {
@@ -222,7 +224,7 @@ static int is_needed(const struct kinds *k, size_t state, uint32_t roles)
 	return 0;
 }
 
-/* The draws of a kind. Rules for decals and shadows leave alone what is drawn in parallel projection; a state names the
+/* Match the draws of a kind. Rules for decals and shadows skip draws in parallel projection; a state names the
  * projection itself. */
 static void match_kind(const struct kind *k, const struct rule *r, struct finding *out)
 {

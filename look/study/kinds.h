@@ -1,7 +1,7 @@
 /*
- * Draws of one kind: of one mesh, one texture, or one state of OpenGL's, and how often frames say what they are. A role
- * is given to a kind that has it nearly always: by its texture where all of that shows it, else by its mesh, or by its
- * state where meshes are in one frame each.
+ * Draws grouped by mesh, by texture and by OpenGL state, and how often frames assign each role to a group. A role is
+ * given to a group that nearly always has it: to a texture if possible, else to a mesh, or to a state if each mesh
+ * occurs in one frame only.
  */
 #pragma once
 
@@ -13,14 +13,14 @@
 
 enum kind_role { KIND_WORLD, KIND_SKY, KIND_DECAL, KIND_SHADOW, KIND_LIT_SHADOW, N_KIND_ROLES };
 
-/* One kind. */
+/* A group of draws. */
 struct kind {
-	uint64_t hash[2]; /* of a mesh or a texture; of a state its bits */
-	uint32_t by;      /* a mesh, a texture, or a state (kinds.c) */
+	uint64_t hash[2]; /* of a mesh or a texture; for a state, its bits */
+	uint32_t by;      /* mesh, texture or state (kinds.c) */
 	uint32_t frames, draws[N_KIND_ROLES];
-	uint64_t last;    /* number of the frame that drew it last, counted from 1, */
-	uint32_t asked;   /* and how many of its draws were looked at there for what they lie on */
-	size_t texture, state; /* of a mesh: index + 1; 0: none */
+	uint64_t last;    /* the last frame that drew it, counted from 1 */
+	uint32_t asked;   /* how many of its draws were tested in that frame for what they lie on */
+	size_t texture, state; /* for a mesh: index + 1; 0: none */
 };
 
 /* All zero: empty. */
@@ -29,7 +29,7 @@ struct kinds {
 	size_t n, room;
 	struct table by_key; /* -> index + 1 */
 	uint64_t frames;
-	uint8_t *layers; /* [n_instances] of the last frame: enum layer */
+	uint8_t *layers; /* [n_instances]: enum layer, for the last frame */
 	size_t room_layers;
 };
 
@@ -37,7 +37,7 @@ struct kinds {
 int kinds_add(struct kinds *k, const struct scene *scene);
 void kinds_free(struct kinds *k);
 
-/** 1 if a mesh is part of the sky, by the rules of kinds_find. */
+/** 1 if a mesh belongs to the sky by the rules of kinds_find. */
 int kinds_has_sky(const struct kinds *k, const uint64_t mesh[2]);
 
 /** Rules for surfaces. @param is_relit  1: surfaces that OpenGL does not light get other lights, which cast shadows */

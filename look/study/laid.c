@@ -12,19 +12,19 @@
 #include "look/study/face.h"
 #include "look/matrix.h"
 
-/* So many places of a draw are looked at, and this share of them lies on something. */
+/* At most PLACES places of a draw are sampled; this share of them must lie on something. */
 enum { PLACES = 8, MOST_TRIANGLES = 8192 };
 #define MOST 0.75
-/* How far it may be above that: of its size, and of its distance. */
+/* The greatest height above the surface below, relative to the draw's size and to its distance. */
 #define OFF_SIZE 0.1
 #define OFF_DISTANCE 1e-4
-/* Level with it within 15 degrees. */
+/* Level: normals within 15 degrees. */
 #define LEVEL 0.966
-/* A shadow's thing is so many times larger or smaller than it at most. */
+/* An object and its shadow differ in size by at most this factor. */
 #define ALIKE 4
-/* Two draws are in one place where their middles and sizes differ by less than this share of it. */
+/* Two draws are at the same place if their middles and sizes differ by less than this share of their size. */
 #define SAME 1e-3
-/* Colours that are black; texels' come of 8 bits. */
+/* Black, up to the rounding of 8-bit texels. */
 #define BLACK 0.1f
 #define BLACK_TEXEL 26
 
@@ -59,7 +59,7 @@ int laid_may_be(const struct scene *s, uint32_t instance)
 
 /* --- What it lies on --------------------------------------------------------------------------------------------- */
 
-/* 1 where a place with a normal lies on a face. */
+/* 1 if a point with a normal lies on a face. */
 static int lies_on(const struct face *f, const double at[3], const double normal[3], double off)
 {
 	double from[3];
@@ -83,14 +83,14 @@ static int lies_on(const struct face *f, const double at[3], const double normal
 	return 1;
 }
 
-/* What an instance lies on. */
+/* The surface that an instance lies on. */
 struct ground {
 	double normal[3]; /* towards the viewer */
-	double radius;    /* of the largest thing below it */
-	uint32_t instance; /* SCENE_NONE: it lies on nothing */
+	double radius;    /* of the largest object below it */
+	uint32_t instance; /* SCENE_NONE: there is none */
 };
 
-/* 1 where a place of a draw lies on an instance; normal: receives that of the face below */
+/* 1 if a place of a draw lies on an instance. @param normal  receives the normal of the face below */
 static int has_below(const struct scene *s, const struct scene_instance *below, const struct face *place, double off,
                      double normal[3])
 {
@@ -120,7 +120,7 @@ static double apart(const struct ball *a, const struct ball *b)
 	return sqrt(matrix_dot3(off, off));
 }
 
-/* The middle of a face that is in sight. */
+/* 1 if the middle of a face is in the window. */
 static int is_in_sight(const double clip[16], const struct face *f)
 {
 	double at[4] = { 0, 0, 0, 1 }, out[4];
@@ -131,7 +131,7 @@ static int is_in_sight(const double clip[16], const struct face *f)
 	return fabs(out[0]) <= out[3] && fabs(out[1]) <= out[3] && fabs(out[2]) <= out[3];
 }
 
-/* Some of a draw's faces, evenly spread over those in sight. @return how many */
+/* Sample some of a draw's visible faces, evenly spread. @return how many */
 static unsigned find_places(const struct scene *s, const struct scene_instance *in, struct face out[PLACES])
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
@@ -158,7 +158,7 @@ static unsigned find_places(const struct scene *s, const struct scene_instance *
 	return n;
 }
 
-/* The solid things before a draw that it lies on. @return 0: none of it is in sight */
+/* Find the solid objects drawn earlier that a draw lies on. @return 0: the draw is out of sight */
 static int find_ground(const struct scene *s, const struct ball *balls, uint32_t instance, struct ground *ground)
 {
 	const struct scene_instance *in = &s->instances[instance];
@@ -204,7 +204,8 @@ static int has_black_texels(const struct scene_texture *t)
 	return 1;
 }
 
-/* 1 where a texture is white along its edge: what it multiplies by it stays there. A lightmap knows no edge. */
+/* 1 if a texture is white along its edge, so that multiplying by it changes nothing there. Lightmaps have no such
+ * edge. */
 static int has_white_edge(const struct scene_texture *t)
 {
 	if (t->floats || !t->texels || t->border)
@@ -231,7 +232,7 @@ static int has_black_vertices(const struct scene *s, const struct scene_instance
 	return 1;
 }
 
-/* 1 where all that a draw adds is black. */
+/* 1 if everything that a draw adds is black. */
 static int is_black(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_material *m = &s->materials[in->material];
@@ -246,7 +247,7 @@ static int is_black(const struct scene *s, const struct scene_instance *in)
 	return unit->env_mode == GL_MODULATE && (has_black_vertices(s, in) || has_black_texels(s->textures[unit->texture]));
 }
 
-/* 1 where nothing that a draw does makes anything brighter. */
+/* 1 if a draw brightens nothing. */
 static int darkens(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_material *m = &s->materials[in->material];
@@ -261,13 +262,13 @@ static int darkens(const struct scene *s, const struct scene_instance *in)
 	return drawn_multiplies(m) || (m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA && is_black(s, in));
 }
 
-/* 1 where two balls are neither far larger nor far smaller than each other. */
+/* 1 if two balls are of similar size. */
 static int is_alike(const struct ball *a, const struct ball *b)
 {
 	return a->radius < ALIKE * b->radius && b->radius < ALIKE * a->radius;
 }
 
-/* 1 where something solid, neither far larger nor far smaller, stands on a draw. */
+/* 1 if something solid of similar size stands on a draw. */
 static int has_thing(const struct scene *s, const struct ball *balls, uint32_t instance, const struct ground *ground)
 {
 	const struct ball *ball = &balls[instance];
@@ -291,8 +292,8 @@ static int has_thing(const struct scene *s, const struct ball *balls, uint32_t i
 	return 0;
 }
 
-/* 1 where a draw is of the same points as one before it, and adds to that: another pass of a surface. One that covers
- * it is a picture. */
+/* 1 if a draw has the same points as an earlier one and adds to its colour: another pass of the same surface. A draw
+ * that covers the earlier one is a picture. */
 static int is_pass(const struct scene *s, const struct ball *balls, uint32_t instance)
 {
 	const struct scene_instance *in = &s->instances[instance];
@@ -318,7 +319,7 @@ static enum laid find_one(const struct scene *s, const struct ball *balls, uint3
 	if (ground.instance == SCENE_NONE || is_pass(s, balls, instance))
 		return LAID_NOT;
 	if (!darkens(s, &s->instances[instance]) || !has_thing(s, balls, instance, &ground))
-		return drawn_multiplies(m) ? LAID_NOT : LAID_DECAL; /* lightmaps multiply, too */
+		return drawn_multiplies(m) ? LAID_NOT : LAID_DECAL; /* lightmaps multiply too */
 	below = &s->materials[s->instances[ground.instance].material];
 	return below->lighting && below->light_count ? LAID_LIT_SHADOW : LAID_SHADOW;
 }

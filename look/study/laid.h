@@ -1,7 +1,7 @@
 /*
- * Flat pictures laid on surfaces, told by one frame: a draw that leaves no depth, or is offset towards the viewer, and
- * lies on something that was drawn before it. It is a shadow where it only darkens and a thing stands on it, else a
- * decal.
+ * Flat pictures laid on surfaces, found in a single frame: draws that write no depth, or are offset towards the
+ * viewer, and lie on something drawn earlier. Such a draw is a shadow if it only darkens and an object stands on it,
+ * else a decal.
  */
 #pragma once
 
@@ -11,16 +11,16 @@
 
 enum laid {
 	LAID_NOT, LAID_DECAL, LAID_SHADOW,
-	LAID_LIT_SHADOW, /* a light of OpenGL's lights what it lies on */
-	LAID_UNKNOWN     /* it is out of sight, where programs leave out what it may lie on */
+	LAID_LIT_SHADOW, /* lit by a light of OpenGL's where it lies */
+	LAID_UNKNOWN     /* out of sight, where programs may leave out the surface below */
 };
 
-/** 1 where an instance is drawn as such pictures are, wherever it lies. */
+/** 1 if an instance is drawn the way such pictures are, wherever it lies. */
 int laid_may_be(const struct scene *scene, uint32_t instance);
 
 /**
- * What instances are.
- * @param out  enum laid, [n_instances]; asked for where it is not LAID_NOT, and of laid_may_be
+ * Classify instances.
+ * @param out  enum laid, [n_instances]. Only instances that are not LAID_NOT on entry and pass laid_may_be are tested
  * @return 0 or ERR_SYSTEM (reported)
  */
 int laid_find(const struct scene *scene, uint8_t *out);

@@ -8,14 +8,14 @@
 #include "look/study/layer.h"
 #include "look/matrix.h"
 
-/* A bright texel, by its luma, and a coloured one, by how much less than its largest component the smallest is; their
- * share of all. */
+/* Texels are bright by their luma, and coloured if their largest component exceeds the smallest by this share. At
+ * most MOST_TEXELS of a lamp's texels are both. */
 #define BRIGHT 0.75
 #define COLOURED 0.2
 #define MOST_TEXELS 0.5
-/* A lamp's box is so much smaller than the largest thing's. */
+/* A lamp's box is at most this large, relative to the largest object's. */
 #define SMALL 0.1
-/* How bright a lamp is where it stands, and how many of its sizes off that is halved. */
+/* The brightness at the lamp, and the distance where it halves, in sizes of the lamp. */
 #define STRENGTH 0.8
 #define REACH 6
 
@@ -38,7 +38,7 @@ static void find_color(const struct scene_texture *t, double out[3])
 		out[k] = n >= MOST_TEXELS * t->width * t->height ? sum[k] / n : 0;
 }
 
-/* The colour of a texture's bright texels; NULL: it has too few, or there were too many textures. */
+/* The mean colour of a texture's bright texels; NULL: it has too few, or there are too many textures. */
 static const double *color_of(struct lamps *l, const struct scene_texture *t)
 {
 	unsigned i = 0;
@@ -107,7 +107,7 @@ void lamps_add(struct lamps *l, const struct scene *s, const struct motion *m, c
 	}
 }
 
-/* 1 where a lamp is one in each frame that draws it, and stands still. */
+/* 1 if every frame that draws a lamp shows it as one, and it stands still. */
 static int is_lamp(const struct lamp *lamp, const struct motion *m)
 {
 	return motion_is_static(&m->things[lamp->thing]) && lamp->draws == m->things[lamp->thing].frames;

@@ -10,15 +10,15 @@
 #include "look/study/face.h"
 #include "look/matrix.h"
 
-/* A ground reaches from below the viewer to far off; a sky is nowhere so much nearer than elsewhere. */
+/* A ground reaches from below the viewer to the horizon; a sky is nowhere this much nearer than elsewhere. */
 #define NEAREST 0.1
-/* The viewer is within a box of this much more than what is painted: a dome may end at the viewer's height. */
+/* The viewer is inside the painted layer's box, enlarged by this share: a dome may end at the viewer's height. */
 #define MARGIN 0.05
-/* A picture behind the world covers this share of the window both ways. */
+/* A backdrop covers this share of the window in width and in height. */
 #define COVERS 0.95
-enum { MOST_TRIANGLES = 512 }; /* of a mesh that are looked at */
+enum { MOST_TRIANGLES = 512 }; /* that are sampled in a mesh */
 
-/* Leaves a colour in the window. */
+/* 1 if a draw leaves colour in the window. */
 static int is_painted(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_material *m = &s->materials[in->material];
@@ -27,7 +27,7 @@ static int is_painted(const struct scene *s, const struct scene_instance *in)
 	       modelview_kind_of(in->modelview) == MODELVIEW_PLAIN && s->meshes[in->mesh]->primitive_count;
 }
 
-/* 1 where a view shows what is about the origin of eye space. */
+/* 1 if a view shows the surroundings of the origin of eye space. */
 static int is_from_origin(const struct scene_view *view)
 {
 	const float *p = view->projection;
@@ -40,7 +40,7 @@ static int is_world(const struct scene *s, const struct scene_instance *in)
 	return solid_is(s, in) && !drawn_in_parallel(&s->views[in->view]);
 }
 
-/* How far off the point of a triangle is that is nearest to the origin. */
+/* The distance from the origin to the nearest point of a triangle. */
 static double nearest_of(const struct face *f)
 {
 	double best = HUGE_VAL, along = matrix_dot3(f->normal, f->corner[0]);
@@ -64,7 +64,7 @@ static double nearest_of(const struct face *f)
 	return inside ? fabs(along) : best;
 }
 
-/* 1 where a draw is about the viewer, or a part of what may be. box: in eye space, widened by it */
+/* 1 if a draw surrounds the viewer or may be part of something that does. @param box  in eye space, enlarged by it */
 static int is_about(const struct scene *s, const struct scene_instance *in, struct box *box)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
@@ -91,7 +91,7 @@ static int is_about(const struct scene *s, const struct scene_instance *in, stru
 	return nearest >= NEAREST * farthest && isfinite(nearest);
 }
 
-/* 1 where a picture covers the window. */
+/* 1 if a picture covers the window. */
 static int covers_window(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
@@ -106,7 +106,7 @@ static int covers_window(const struct scene *s, const struct scene_instance *in)
 	       box.high[0] >= COVERS && box.high[1] >= COVERS;
 }
 
-/* Instances from `first` on that are of the world. */
+/* The number of instances from `first` on that belong to the world. */
 static uint32_t count_world(const struct scene *s, uint32_t first, uint32_t end)
 {
 	uint32_t n = 0;
@@ -116,7 +116,7 @@ static uint32_t count_world(const struct scene *s, uint32_t first, uint32_t end)
 	return n;
 }
 
-/* Depth alone is cleared once what is about the viewer has been drawn, and nothing else has. @return 0: it is not so */
+/* The first instance after a depth clear that only draws around the viewer precede. @return 0: there is none */
 static uint32_t end_by_clear(const struct scene *s)
 {
 	for (uint32_t c = 0; c < s->n_clears; c++) {
@@ -135,7 +135,7 @@ static uint32_t end_by_clear(const struct scene *s)
 	return 0;
 }
 
-/* Where the world begins; 0: nothing is drawn before it, or there is none. */
+/* The first instance of the world; 0: nothing precedes it, or there is no world. */
 static uint32_t find_end(const struct scene *s)
 {
 	uint32_t end = end_by_clear(s), i = 0;
@@ -159,7 +159,7 @@ static int is_within(const struct box *b)
 	return size > 0;
 }
 
-/* 1 where the world has the same thing at the same place: the draw is a pass of it. */
+/* 1 if the world contains the same object at the same place, of which the draw is one pass. */
 static int is_in_world(const struct scene *s, const struct scene_instance *in, uint32_t end)
 {
 	for (uint32_t i = end; i < s->n_instances; i++)

@@ -1,6 +1,6 @@
 /*
- * What a program paints behind its world, told by one frame: drawn before the world, so that it hides nothing of it,
- * and all around the viewer. The viewer need not move for that.
+ * Layers painted behind the world, found in a single frame: they are drawn before the world, hide nothing of it, and
+ * surround the viewer. The viewer need not move.
  */
 #pragma once
 
@@ -11,7 +11,8 @@
 enum layer { LAYER_WORLD, LAYER_SKY, LAYER_UNKNOWN };
 
 /**
- * What each instance is: LAYER_UNKNOWN is painted as a sky is, but too little of that is in the frame to be all around.
+ * The layer of each instance. LAYER_UNKNOWN is painted like a sky, but the frame contains too little of it to
+ * surround the viewer.
  * @param out  enum layer, [n_instances]
  */
 void layer_find(const struct scene *scene, uint8_t *out);

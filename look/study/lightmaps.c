@@ -16,7 +16,7 @@ int lightmaps_is_pass(const struct scene_material *m)
 	return drawn_multiplies(m) && !m->depth_write && m->depth_test && m->unit_count == 1 && !m->lighting;
 }
 
-/* The unit with light as its texture; NULL: none. */
+/* The unit whose texture is light; NULL: none. */
 static const struct scene_unit *light_unit(const struct scene *s, const struct scene_material *m)
 {
 	const struct scene_unit *unit = m->unit_count ? &s->units[m->unit_first + m->unit_count - 1] : NULL;
@@ -27,7 +27,7 @@ static const struct scene_unit *light_unit(const struct scene *s, const struct s
 	return (m->unit_count == 2 && !m->blend && m->depth_write) || lightmaps_is_pass(m) ? unit : NULL;
 }
 
-/* A corner of a wall: texture coordinates in texels, and its place in the world. */
+/* A corner of a wall: texture coordinates in texels, and its position in the world. */
 struct corner {
 	double s, t, at[3];
 };
@@ -42,13 +42,13 @@ static void corner_of(const struct scene_mesh *mesh, const struct scene_unit *un
 	matrix_point(out->at, world, (double[3]){ (double)p[0], (double)p[1], (double)p[2] });
 }
 
-/* Twice the area that three corners span in the texture, with its sign. */
+/* Twice the signed area of a triangle in the texture. */
 static double area(const struct corner *a, const struct corner *b, double s, double t)
 {
 	return (b->s - a->s) * (t - a->t) - (b->t - a->t) * (s - a->s);
 }
 
-/* The texels with their middle in a triangle. */
+/* Add the texels whose centres are in a triangle. */
 static int put_texels(struct lightmaps *l, const struct scene_texture *texture, const struct corner c[3],
                       const double normal[3], unsigned wall)
 {
@@ -57,7 +57,7 @@ static int put_texels(struct lightmaps *l, const struct scene_texture *texture, 
 	int t0 = (int)floor(fmin(c[0].t, fmin(c[1].t, c[2].t))), t1 = (int)ceil(fmax(c[0].t, fmax(c[1].t, c[2].t)));
 
 	if (s0 < -1 || t0 < -1 || s1 > (int)texture->width + 1 || t1 > (int)texture->height + 1 || whole == 0)
-		return 0; /* repeated: no lightmap */
+		return 0; /* repeated, and so no lightmap */
 	for (int t = t0 < 0 ? 0 : t0; t < t1 && t < (int)texture->height; t++)
 		for (int s = s0 < 0 ? 0 : s0; s < s1 && s < (int)texture->width; s++) {
 			double w0 = area(&c[1], &c[2], s + 0.5, t + 0.5) / whole,
@@ -78,7 +78,7 @@ static int put_texels(struct lightmaps *l, const struct scene_texture *texture, 
 	return 0;
 }
 
-/* A wall with its light. */
+/* Add a wall with its light. */
 static int put_wall(struct lightmaps *l, const struct scene *s, const struct scene_instance *in,
                     const struct scene_unit *unit, const double world[16])
 {

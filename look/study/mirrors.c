@@ -9,7 +9,7 @@
 #include "look/matrix.h"
 #include "look/pairs.h"
 
-/* The plane of a reflection in eye space, its normal towards the viewer. @return 0: the matrix is none */
+/* The plane of a reflection in eye space, with its normal towards the viewer. @return 0: the matrix is no reflection */
 static int read_reflection(const double m[16], double plane[4])
 {
 	double square = 0, most = 0;
@@ -39,7 +39,7 @@ static int read_reflection(const double m[16], double plane[4])
 	return 1;
 }
 
-/* 1 where a texture lets nothing through, and leaves alpha as it is. */
+/* 1 if a texture is opaque and does not change alpha. */
 static int is_opaque(const struct scene *s, const struct scene_unit *u)
 {
 	const struct scene_texture *t = s->textures[u->texture];
@@ -50,7 +50,7 @@ static int is_opaque(const struct scene *s, const struct scene_unit *u)
 	return u->env_mode == GL_MODULATE || u->env_mode == GL_DECAL;
 }
 
-/* The share of what lies behind that a draw lets through. */
+/* The share of the background that a draw lets through. */
 static double share_behind(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_material *m = &s->materials[in->material];
@@ -64,7 +64,7 @@ static double share_behind(const struct scene *s, const struct scene_instance *i
 	                                    1 - (double)s->currents[in->current].color[3];
 }
 
-/* The surface over the picture: drawn after it, blended, in its plane. */
+/* Find the surface over the mirror image: a blended draw in its plane, after it. */
 static void find_surface(struct trick_found *f, const struct scene *s, uint32_t after, const double plane[4])
 {
 	const float here[4] = { (float)plane[0], (float)plane[1], (float)plane[2], (float)plane[3] };

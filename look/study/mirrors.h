@@ -1,7 +1,7 @@
 /*
- * Mirrors drawn as the world behind them: meshes drawn once as they are and once under a reflection, p' = p - 2 (n . p
- * + d) n. What leads from the one draw to the other holds the plane. The mirror itself lies in it, blended over the
- * picture.
+ * Mirrors drawn as a second world behind them. Meshes are drawn once as they are and once reflected, p' = p - 2 (n .
+ * p + d) n; the matrix from one draw to the other gives the plane. The mirror itself lies in that plane and is
+ * blended over the reflected meshes.
  */
 #pragma once
 

@@ -11,8 +11,8 @@
 #include "look/study/box.h"
 #include "look/matrix.h"
 
-/* Places agree up to this share of their distance from the viewer, turns up to this angle: products of floats are
- * better by far. */
+/* Tolerances: positions as a share of their distance from the viewer, rotations as an angle. Products of floats are
+ * far more exact. */
 #define SAME_PLACE 1e-3
 #define SAME_TURN 2e-3
 enum { MAX_GUESSES = 48 };
@@ -27,7 +27,8 @@ static int is_deep(const struct scene *s, const struct scene_instance *in)
 	       (m->color_mask & 7) && s->views[in->view].target == 0;
 }
 
-/* A mesh by its points: how its quads are cut, and so its own hash, may change as the viewer moves. */
+/* The hash of a mesh's points. The mesh's own hash may change as the viewer moves, since it depends on how quads are
+ * split. */
 static XXH128_hash_t hash_points(const struct scene_mesh *mesh)
 {
 	const uint32_t head[3] = { mesh->kind, mesh->vertex_count, mesh->primitive_count };
@@ -41,7 +42,7 @@ static XXH128_hash_t hash_points(const struct scene_mesh *mesh)
 	return XXH3_128bits_digest(&hash);
 }
 
-/* A hash that a thing's mesh has in some frame. */
+/* Note a hash that a thing's mesh has in some frame. */
 static void note_hash(struct motion_thing *t, const uint64_t hash[2])
 {
 	if (memcmp(t->mesh, hash, sizeof(t->mesh)) != 0)
@@ -49,9 +50,10 @@ static void note_hash(struct motion_thing *t, const uint64_t hash[2])
 }
 
 /*
- * The thing that an instance is: what has its mesh, its handedness, and is as often drawn before it in the frame. A
- * mirrored copy is another one. out: receives its index; SCENE_NONE: none, there are too many.  @return 0 or ERR_SYSTEM
- * (reported)
+ * Find the thing of an instance: it has the same mesh, the same handedness, and the same number of equal draws before
+ * it in the frame. A mirrored copy is another thing.
+ * @param out  receives its index; SCENE_NONE: none, there are too many
+ * @return 0 or ERR_SYSTEM (reported)
  */
 static int find_thing(struct motion *m, struct table *counts, const struct scene *s, const struct scene_instance *in,
                       const double eye[16], uint32_t *out)
@@ -87,13 +89,13 @@ static int find_thing(struct motion *m, struct table *counts, const struct scene
 
 /* --- The camera -------------------------------------------------------------------------------------------------- */
 
-/* A thing's say: under which camera it has not moved. */
+/* A thing votes for the camera under which it has not moved. */
 struct vote {
 	uint32_t thing;
 	double eye[16], camera[16], weight;
 };
 
-/* 1 where a camera shows a thing, as it stands in the world, where it was drawn. */
+/* 1 if a camera shows a thing, at its place in the world, where it was drawn. */
 static int stands(const struct motion_thing *t, const double camera[16], const double eye[16])
 {
 	double expected[16], here[3], there[3], far = 0, off = 0, scale = matrix_scale(eye);
@@ -128,7 +130,7 @@ static double support(const struct motion *m, const struct vote *votes, size_t n
 	return sum;
 }
 
-/* Largest first. */
+/* By weight, the largest first. */
 static int by_weight(const void *a, const void *b)
 {
 	double x = ((const struct vote *)a)->weight, y = ((const struct vote *)b)->weight;
@@ -136,7 +138,7 @@ static int by_weight(const void *a, const void *b)
 	return x < y ? 1 : x > y ? -1 : 0;
 }
 
-/* 1 where the viewer is within a thing's box, as in a world that is drawn at once. */
+/* 1 if the viewer is inside a thing's box, as in a world that is drawn in one piece. */
 static int surrounds_viewer(const struct motion_thing *t, const double eye[16])
 {
 	double inverse[16], at[3], square = 0;
@@ -150,8 +152,8 @@ static int surrounds_viewer(const struct motion_thing *t, const double eye[16])
 }
 
 /*
- * What more than half say, by size; else the last camera, and where it does as well. One thing alone is no evidence of
- * a camera, unless it surrounds the viewer: it may move itself.
+ * The camera that more than half of the votes, by size, agree on; otherwise, or if it explains as much, the last one.
+ * A single thing is no evidence for a camera, since it may move itself, unless it surrounds the viewer.
  */
 static void choose_camera(const struct motion *m, struct vote *votes, size_t n, struct motion_camera *camera)
 {
@@ -184,8 +186,8 @@ static int is_parallel(const struct scene *s, uint32_t i)
 }
 
 /*
- * A frame goes on with the part of the heaviest thing that stands, if more than half of what it draws has been seen
- * before and stands. Else nothing says where the viewer has been taken: another part begins.
+ * A frame continues the part of the largest thing that stands still, if more than half of the frame has been seen
+ * before and stands still. Otherwise the viewer has been taken to an unknown place, and another part begins.
  */
 static void choose_part(struct motion *m, const struct vote *votes, size_t n, double fresh,
                         struct motion_camera *camera)
@@ -208,9 +210,9 @@ static void choose_part(struct motion *m, const struct vote *votes, size_t n, do
 		camera->part = m->n_parts++;
 }
 
-/* Each thing that was drawn before and is drawn again votes. Large ones count more, up to a bound: a far plane is no
- * world. What is drawn in parallel projection over a world in perspective is a HUD, and has no say. fresh: receives the
- * weight of those that would vote but are drawn for the first time. */
+/* Every thing drawn before votes. Large ones have more weight, up to a limit, because a distant plane is not the
+ * world. Draws in parallel projection over a world in perspective are HUDs and do not vote. @param fresh  receives
+ * the weight of those that are drawn for the first time */
 static size_t collect_votes(const struct motion *m, const struct scene *s, struct vote *votes, double *fresh)
 {
 	size_t n = 0;
@@ -272,7 +274,7 @@ static void note_thing(struct motion *m, struct motion_thing *t, const double ey
 	t->seen[m->n_frames / 64] |= 1ull << m->n_frames % 64;
 }
 
-/* Meshes of the same triangles and texture coordinates, but other points. */
+/* Follow meshes with the same triangles and texture coordinates but other points. */
 static int note_shape(struct motion *m, const struct scene_mesh *mesh)
 {
 	uint64_t parts[4] = { mesh->kind, mesh->vertex_count, mesh->primitive_count, 0 }, key, points;
@@ -280,7 +282,7 @@ static int note_shape(struct motion *m, const struct scene_mesh *mesh)
 	uintptr_t found;
 
 	if (mesh->kind != SCENE_TRIANGLES || mesh->primitive_count < 16)
-		return 0; /* quads and the like are all alike */
+		return 0; /* quads and the like all look alike */
 	parts[3] = XXH3_64bits(mesh->index, (size_t)mesh->primitive_count * 3 * sizeof(*mesh->index));
 	if (mesh->texcoord[0])
 		parts[3] ^= XXH3_64bits(mesh->texcoord[0], (size_t)mesh->vertex_count * 16);

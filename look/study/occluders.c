@@ -121,7 +121,7 @@ static int enters(const struct occluder_node *n, const double from[3], const dou
 {
 	double begin = 0, end = 1;
 
-	for (int k = 0; k < 3; k++) { /* fmin and fmax are calls */
+	for (int k = 0; k < 3; k++) { /* fmin and fmax would be function calls */
 		double a = (n->low[k] - from[k]) * inverse[k], b = (n->high[k] - from[k]) * inverse[k];
 		double near = (a < b ? a : b) - 1e-9, far = (a < b ? b : a) + 1e-9;
 

@@ -5,13 +5,13 @@
 static const char *const trick_names[] = { "planar shadow", "stencil mirror", "shadow volume (z-pass)",
 	                                   "shadow volume (z-fail)" };
 
-/* More draws that agree are more certain. */
+/* More draws that agree give more confidence. */
 static double confidence_of(unsigned votes)
 {
 	return 1 - 0.5 / (1 + votes);
 }
 
-/* How much of the lightmaps the lights explain. */
+/* The share of the light in lightmaps that the lights explain. */
 static double explained_share(const struct solved *s)
 {
 	return s->signal > 0 ? 1 - s->residual * s->residual / (s->signal * s->signal) : 0;
@@ -22,7 +22,7 @@ int relight_is_known(const struct solved *s)
 	return s->n && explained_share(s) > 0.9;
 }
 
-/* 1 where traced light makes the same shadow: of a light of OpenGL's, or of one that lights walls anew. */
+/* 1 if traced light casts the same shadow, from a light of OpenGL's or one that replaces lightmaps. */
 static int is_replaced(const struct trick_found *f, const struct solved *s)
 {
 	for (unsigned i = 0; i < s->n && relight_is_known(s) && f->light[3] != 0; i++) {
@@ -38,13 +38,13 @@ static int is_replaced(const struct trick_found *f, const struct solved *s)
 	return f->has_opengl_light;
 }
 
-/* 1 where the rule of one finding is that of another: places of lights and planes are no part of it. */
+/* 1 if two findings give the same rule; positions of lights and planes are not part of it. */
 static int has_rule_of(const struct trick_found *a, const struct trick_found *b, const struct solved *s)
 {
 	return a->kind == b->kind && a->stencil == b->stencil && is_replaced(a, s) == is_replaced(b, s);
 }
 
-/* The rule of a finding and of all later ones whose rule is the same. */
+/* One rule for a finding and all later ones that give the same rule. */
 static void find_shadow(const struct tricks *t, unsigned first, const struct solved *s, struct findings *out)
 {
 	const struct trick_found *f = &t->found[first];
@@ -106,7 +106,7 @@ static void find_light(const struct trick_found *f, struct findings *out)
 	            FINDING_PLACE("position", 7, f->light, f->light[3]));
 }
 
-/* A rule for walls, which gives the share of their light that the lights explain. */
+/* A rule for walls; its confidence is the share of their light that the lights explain. */
 static struct finding *add_walls(struct findings *out, const char *role, const char *walls, unsigned n,
                                  const struct solved *s)
 {

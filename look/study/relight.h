@@ -1,4 +1,4 @@
-/* Rules that replace the light a program drew itself, as shadows, mirrors, lightmaps and vertex colours. */
+/* Rules that replace light drawn by the program itself: shadows, mirrors, lightmaps and vertex colours. */
 #pragma once
 
 #include "look/findings.h"

@@ -9,11 +9,11 @@
 #include "look/study/face.h"
 #include "look/matrix.h"
 
-/* Matrices agree up to this share of the world's numbers in them. */
+/* Tolerance of matrices, as a share of the size of the world. */
 #define SAME 1e-4
-/* Faces look at the viewer within five degrees. */
+/* Faces look at the viewer if they are within five degrees. */
 #define FACING 0.996
-/* A texture is one of particles where this share of its draws face the viewer. */
+/* A texture belongs to particles if this share of its draws face the viewer. */
 #define FACING_SHARE 0.95
 
 static int is_same(const double a[16], const double b[16])
@@ -24,7 +24,7 @@ static int is_same(const double a[16], const double b[16])
 	return 1;
 }
 
-/* A camera's turn alone, the other way round. */
+/* The inverse of a camera's rotation. */
 static void turn_back(const double camera[16], double out[16])
 {
 	memset(out, 0, 16 * sizeof(*out));
@@ -36,7 +36,7 @@ static void turn_back(const double camera[16], double out[16])
 
 /* --- Sky --------------------------------------------------------------------------------------------------------- */
 
-/* walked: the viewer is elsewhere than the frame before */
+/* @param walked  the viewer has moved since the last frame */
 static void note_thing(struct roles *r, const struct motion *m, uint32_t i, const double eye[16], const double back[16],
                        int walked)
 {
@@ -51,7 +51,7 @@ static void note_thing(struct roles *r, const struct motion *m, uint32_t i, cons
 	memcpy(t->turned, turned, sizeof(turned));
 }
 
-/* How far off a thing's middle is, in its own sizes. */
+/* The distance of a thing's middle, in sizes of the thing. */
 static double distance_in_sizes(const struct motion_thing *t)
 {
 	double at[3];
@@ -60,7 +60,7 @@ static double distance_in_sizes(const struct motion_thing *t)
 	return sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]) / (t->size * matrix_scale(t->eye));
 }
 
-/* What turns about a point looks like a sky; a sky, or a side of its box, is about the viewer. */
+/* A thing that turns about a point resembles a sky, but a sky, or a side of its box, surrounds the viewer. */
 static int is_sky(const struct roles *r, const struct motion *m, size_t i)
 {
 	return !r->things[i].is_flat && r->things[i].came_along >= 2 && !r->things[i].stayed &&
@@ -68,7 +68,8 @@ static int is_sky(const struct roles *r, const struct motion *m, size_t i)
 	       !kinds_has_sky(&r->kinds, m->things[i].mesh);
 }
 
-/* What stands while all else turns looks held; what is held is near, and small beside the world. */
+/* A thing that stays put while everything else turns seems to be held, but a held thing is near, and small compared
+ * to the world. */
 static int is_held(const struct roles *r, const struct motion *m, size_t i)
 {
 	const struct motion_thing *t = &m->things[i];
@@ -83,7 +84,7 @@ static int is_held(const struct roles *r, const struct motion *m, size_t i)
 
 /* --- Particles --------------------------------------------------------------------------------------------------- */
 
-/* 1 where every face looks at the viewer, or straight back along the view. */
+/* 1 if every face looks at the viewer, or straight back along the view. */
 static int faces_viewer(const struct scene_mesh *mesh, const double eye[16])
 {
 	for (uint32_t p = 0; p < mesh->primitive_count; p++) {
@@ -130,7 +131,7 @@ static int is_particle(const struct roles *r, const struct role_texture *t)
 
 /* --- HUD --------------------------------------------------------------------------------------------------------- */
 
-/* Draws in parallel projection, where the same frame shows a world in perspective that leaves and asks for depth. */
+/* Count the draws in parallel projection, in frames that show a world in perspective with depth written and tested. */
 static void note_hud(struct roles *r, const struct scene *s)
 {
 	unsigned parallel = 0, deep = 0;
@@ -207,8 +208,8 @@ void roles_free(struct roles *r)
 
 typedef int role_test(const struct roles *r, const struct motion *m, size_t i);
 
-/* The next mesh that has a role in all its things, by the first of them. next: the place to look from. @return
- * SCENE_NONE: there is none */
+/* The next mesh whose things all have a role, identified by the first of them. @param next  where to start
+ * @return SCENE_NONE: there is none */
 static uint32_t next_mesh(const struct roles *r, const struct motion *m, role_test *has, size_t next)
 {
 	for (size_t i = next; i < r->n_things; i++) {
@@ -216,7 +217,8 @@ static uint32_t next_mesh(const struct roles *r, const struct motion *m, role_te
 
 		for (size_t k = 0; k < r->n_things && all; k++)
 			if (k != i && memcmp(m->things[k].mesh, m->things[i].mesh, sizeof(m->things[i].mesh)) == 0)
-				all = k > i ? has(r, m, k) : 0; /* an earlier one has told already, or it has not the role */
+				all = k > i ? has(r, m, k) : 0; /* an earlier thing has reported this mesh, or lacks
+				                                   the role */
 		if (all)
 			return (uint32_t)i;
 	}

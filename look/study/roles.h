@@ -1,15 +1,14 @@
 /*
- * What draws are, told by all frames together:
+ * Roles of draws, found by comparing frames:
  *
- *   sky         while the viewer walks, it turns with the world and comes along: its place, but for the turn, stays; or
- *               it is painted before the world and all around (layer.h)
- *   view model  the viewer holds it: its modelview stays while the camera moves
- *   particle    a blended texture on faces that all look at the viewer, in frames between which the viewer turns, or on
- *               points
+ *   sky          turns with the world and moves along with the viewer, or is painted before the world all
+ *                around the viewer (layer.h)
+ *   view model   held by the viewer: its modelview stays the same while the camera moves
+ *   particle     a blended texture on points, or on faces that all look at the viewer while the viewer turns
  *   decal, blob shadow   laid on surfaces (laid.h)
- *   HUD         in parallel projection over a world in perspective, and not cut out by the stencil buffer
+ *   HUD          in parallel projection over a world in perspective, and not masked by the stencil buffer
  *
- * A role is given to all that has its mesh or its texture, and so only where all of that shows it.
+ * A role applies to a mesh or a texture, and so only if all its draws have it.
  */
 #pragma once
 
@@ -20,17 +19,18 @@
 
 enum { ROLES_MOST = 64 }; /* meshes or textures of a role */
 
-/* A thing of motion.things as it was when it was last seen. */
+/* A thing of motion.things when it was last seen. */
 struct role_thing {
-	double turned[16];           /* its modelview with the camera's turn taken back */
-	uint32_t came_along, stayed; /* frames in which the viewer walked, and it did either */
-	uint32_t is_flat;            /* 1: it was drawn in parallel projection, as letters are: it is neither sky nor held */
+	double turned[16];           /* its modelview, with the camera's rotation undone */
+	uint32_t came_along, stayed; /* frames where the viewer walked: it moved along, or it stayed */
+	uint32_t is_flat;            /* 1: it was drawn in parallel projection, like text, and so is neither sky nor
+	                                held */
 };
 
 struct role_texture {
 	uint64_t hash[2];
-	uint32_t facing, others; /* blended draws */
-	uint32_t points; /* of those that face the viewer */
+	uint32_t facing, others; /* blended draws that face the viewer, and others */
+	uint32_t points; /* `facing` draws of points */
 	uint32_t frames;
 	uint64_t last;
 };
@@ -42,10 +42,10 @@ struct roles {
 	struct role_texture textures[ROLES_MOST];
 	unsigned n_textures;
 	unsigned hud_draws, hud_frames;
-	double camera[16];  /* of the last frame */
+	double camera[16];  /* in the last frame */
 	int knows_camera;
-	unsigned turns;     /* frames between which the viewer turned */
-	struct kinds kinds; /* what each frame alone tells: layers of a sky, decals, shadows laid on the ground */
+	unsigned turns;     /* frames before which the viewer turned */
+	struct kinds kinds; /* roles known from single frames: layers of a sky, decals, shadows laid on the ground */
 };
 
 /** Study one more frame, after motion_add. @return 0 or ERR_SYSTEM (reported) */

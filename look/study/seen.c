@@ -8,10 +8,10 @@
 #include "look/modelview.h"
 #include "look/solid.h"
 
-/* Scenes of so many frames are kept while others are rendered. */
+/* The scenes of at most this many frames are kept while others are rendered. */
 enum { MOST_FRAMES = 32 };
 
-/* What a mirror's picture shows stands still as well, in a world that is not there. */
+/* 0 for reflected draws and the like: they stand still too, but in a world that does not exist. */
 static int is_world(const struct scene *s, const struct scene_instance *in)
 {
 	return solid_is(s, in) && !s->materials[in->material].stencil_test &&
@@ -35,11 +35,11 @@ void seen_free(struct seen *seen)
 	*seen = (struct seen){ .draws = NULL };
 }
 
-/* Only the recording's main part is asked: in others, nobody knows where its things stand. */
+/* Only the recording's main part is used; in the others, positions relative to it are unknown. */
 struct asked {
 	const struct motion *motion;
-	uint32_t part, frames;  /* that have it */
-	unsigned char *covered; /* [things]: 1: some rule draws it */
+	uint32_t part, frames;  /* frames: the number of frames in this part */
+	unsigned char *covered; /* [things] 1: an `unseen` rule draws it */
 };
 
 static int is_wanted(const struct asked *a, uint32_t thing)
@@ -49,7 +49,7 @@ static int is_wanted(const struct asked *a, uint32_t thing)
 	return !a->covered[thing] && motion_is_static(t) && t->part == a->part && t->frames < a->frames;
 }
 
-/* The frame that draws most of what no frame so far does. @return how many things */
+/* Find the frame that draws the most things not covered so far. @return their number */
 static size_t find_best(const struct seen *seen, const struct asked *a, uint32_t *best)
 {
 	size_t most = 0, n = 0;
@@ -65,7 +65,7 @@ static size_t find_best(const struct seen *seen, const struct asked *a, uint32_t
 	return most;
 }
 
-/* A frame's draws as ranges, to be freed; what they draw is covered then. NULL: out of memory */
+/* A frame's draws as ranges, to be freed; marks the things they draw as covered. NULL: out of memory */
 static char *draws_of(const struct seen *seen, const struct asked *a, uint32_t frame)
 {
 	char *text = NULL;

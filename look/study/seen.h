@@ -1,6 +1,6 @@
 /*
- * Which frame draws what stands still: programs leave out what their viewer does not see, and mirrors and shadows need
- * it all the same.
+ * The frames that draw each static thing. Programs skip things out of the viewer's sight, but mirrors and shadows
+ * need them.
  */
 #pragma once
 
@@ -8,10 +8,11 @@
 #include "look/study/motion.h"
 #include "scene/scene.h"
 
-/* All zero: nothing was seen. */
+/* All zero: empty. */
 struct seen {
 	struct seen_draw {
-		uint32_t thing, draw, frame; /* motion.things; its draw number there; motion.cameras */
+		uint32_t thing, draw, frame; /* index in motion.things; draw number in that frame; index in
+		                                motion.cameras */
 	} *draws;
 	size_t n, room;
 };
@@ -20,6 +21,8 @@ struct seen {
 int seen_add(struct seen *seen, const struct scene *scene, const struct motion *motion);
 void seen_free(struct seen *seen);
 
-/** The rules `unseen`: few frames that draw between them all that stands still and some frames leave out. @return 0 or
- * ERR_SYSTEM (reported) */
+/**
+ * The rules `unseen`: a few frames that together draw all static things missing from some frames. @return 0 or
+ * ERR_SYSTEM (reported)
+ */
 int seen_find(const struct seen *seen, const struct motion *motion, struct findings *out);

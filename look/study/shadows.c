@@ -15,7 +15,7 @@ static void into_world(const struct motion_camera *camera, double light[4], doub
 	if (!matrix_invert(inverse, camera->eye_from_world))
 		return;
 	matrix_transform(out, inverse, light);
-	memcpy(light, out, 3 * sizeof(*out)); /* the camera neither brings near nor takes away what is infinitely far */
+	memcpy(light, out, 3 * sizeof(*out)); /* the camera's position does not change an infinite distance */
 	for (int c = 0; c < 4; c++) {
 		out[c] = 0;
 		for (int r = 0; r < 4; r++)
@@ -24,7 +24,7 @@ static void into_world(const struct motion_camera *camera, double light[4], doub
 	memcpy(plane, out, sizeof(out));
 }
 
-/* One flat draw beside the draws of the same mesh as it is: what most of all say is true, and tricks_note counts. */
+/* Compare a flat draw with upright draws of the same mesh. The majority decides; tricks_note counts. */
 static void study_flat(struct tricks *t, const struct scene *s, const struct pairs *pairs, uint32_t flat,
                        const struct motion *motion)
 {

@@ -1,8 +1,8 @@
 /*
- * Shadows flattened onto a plane (Blinn 1988, "Me and My (Fake) Shadow"): a mesh drawn once as it is, and once more,
- * dark, under a matrix that takes the light to nothing, or so into the stencil buffer, by which a later draw darkens.
- * What leads from the one draw to the other is k I - L P^T in eye space: its null vector is the light L, its left null
- * vector the plane P.
+ * Shadows flattened onto a plane (Blinn 1988, "Me and My (Fake) Shadow"). A mesh is drawn once as it is, and once
+ * more under a matrix that projects it away from the light: in a dark colour, or into the stencil buffer for a later
+ * draw that darkens. The matrix from one draw to the other is k I - L P^T in eye space; its null vector is the light
+ * L, its left null vector the plane P.
  */
 #pragma once
 

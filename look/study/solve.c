@@ -9,43 +9,43 @@
 
 enum { MOST_SAMPLES = 12000, SEARCH_SAMPLES = 1500, SEEDS = 6, FOLLOWED = 3, ROUNDS = 4 };
 #define CUT_OFF (254.5 / 255)
-/* A light is one more where it explains this share of what the others leave. */
+/* Another light must explain at least this share of the light left by the others. */
 #define EXPLAINS_LEAST 0.02
-/* And what it adds is spread over this many texels: less stands for the errors of a few. Lights of generated levels
- * have 98 to 270, what was invented 1 to 9. */
+/* Its contribution must be spread over at least this many texels; less would only fit the errors of a few. Lights of
+ * generated levels reach 98 to 270, spurious ones 1 to 9. */
 #define SPREAD_LEAST 24
-/* A step that explains no more than this share in addition is none: places would creep. */
+/* A step must explain more than this additional share, or positions would creep. */
 #define CREEP 1e-7
-/* A light has settled where it moves by no more than this share of the world. */
+/* A light has settled when it moves by at most this share of the world's size. */
 #define SETTLED 1e-5
-/* At most this share of samples strays. */
+/* At most this share of the samples is left out. */
 #define MOST_STRAYS 0.1
 
 struct sample {
 	double at[3], normal[3], light[3];
-	double rest[3]; /* what the lights so far leave */
+	double rest[3]; /* light not yet explained */
 	double gain[SOLVE_MOST_LIGHTS]; /* light of each at unit strength */
 	unsigned wall;
-	uint32_t blocker; /* what stood before a light the last time */
-	int strays;       /* no lights explain it: it counts for nothing */
+	uint32_t blocker; /* the last triangle that blocked a light */
+	int strays;       /* 1: no lights explain it, and it is ignored */
 };
 
 struct solving {
 	struct sample *samples;
-	size_t n, step; /* a search looks at each step-th sample */
+	size_t n, step; /* step: a search uses every step-th sample */
 	const struct occluders *walls;
-	unsigned n_walls; /* of the samples */
-	double (*sums)[7]; /* [n_walls] room for find_seeds: weight, place, normal */
+	unsigned n_walls; /* in the samples */
+	double (*sums)[7]; /* [n_walls], used by find_seeds: weight, place, normal */
 	struct solved *out;
 };
 
-/* 1 where a sample says how much light there is: lightmaps are cut off at 1. */
+/* 1 if a sample gives the amount of light; it does not where the lightmap is cut off at 1. */
 static int counts(const struct sample *x, int channel)
 {
 	return x->light[channel] < CUT_OFF && !x->strays;
 }
 
-/* Light of unit strength from a place, if nothing stands between. */
+/* The light of unit strength from a place, unless something is in between. */
 static double gain_of(const struct solving *s, struct sample *x, const double at[3], int looks)
 {
 	double square = 0, along = 0, from[3];
@@ -61,8 +61,8 @@ static double gain_of(const struct solving *s, struct sample *x, const double at
 	return looks && !occluders_sees(s->walls, from, at, &x->blocker) ? 0 : along / (square * sqrt(square));
 }
 
-/* How much of the rest a light at a place explains at its best strength: the drop of the sum of squares. seen: of every
- * sample, or NULL */
+/* The amount of unexplained light, as a drop of the sum of squares, that a light of the best strength at a place
+ * explains. @param seen  for every sample, or NULL */
 static double explained(const struct solving *s, const double at[3], const unsigned char *seen, unsigned char *sees)
 {
 	double product[3] = { 0, 0, 0 }, square[3] = { 0, 0, 0 }, sum = 0;
@@ -85,7 +85,8 @@ static double explained(const struct solving *s, const double at[3], const unsig
 	return sum;
 }
 
-/* Walk to a better place, in steps that shrink; what sees it is taken to stay. @return what is explained there */
+/* Move to a better place in shrinking steps; the samples in sight are assumed to stay the same. @return the amount
+ * explained there */
 static double walk(const struct solving *s, double at[3], double step, const unsigned char *sees)
 {
 	double best = explained(s, at, sees, NULL);
@@ -109,7 +110,7 @@ static double walk(const struct solving *s, double at[3], double step, const uns
 	return best;
 }
 
-/* Walk, look around anew, and walk again. */
+/* Walk, update which samples are in sight, and walk again. */
 static double search(const struct solving *s, double at[3], double step, unsigned char *sees)
 {
 	for (int round = 0; round < ROUNDS; round++, step *= 0.5) {
@@ -121,7 +122,7 @@ static double search(const struct solving *s, double at[3], double step, unsigne
 
 /* --- Strengths --------------------------------------------------------------------------------------------------- */
 
-/* Of all lights and the ambient light together, none negative: coordinate descent on the normal equations. */
+/* Fit all lights and the ambient light together, none of them negative: coordinate descent on the normal equations. */
 static void fit_strengths(struct solving *s)
 {
 	struct solved *out = s->out;
@@ -156,7 +157,7 @@ static void fit_strengths(struct solving *s)
 	}
 }
 
-/* What is left of each sample without light `without`; where the lightmap is cut off nothing is known. */
+/* Compute the unexplained part of each sample without light `without`; unknown where the lightmap is cut off. */
 static void leave_rest(struct solving *s, unsigned without)
 {
 	for (size_t i = 0; i < s->n; i++)
@@ -187,7 +188,7 @@ static double squares_left(const struct solving *s)
 	return sum;
 }
 
-/* Over how many samples a light is spread: n where it is the same on n and none elsewhere. */
+/* The effective number of samples that a light contributes to: n if it is equal on n and zero elsewhere. */
 static double spread_of(const struct solving *s, unsigned which)
 {
 	double sum = 0, squares = 0;
@@ -204,7 +205,8 @@ static double spread_of(const struct solving *s, unsigned which)
 
 /* --- Places ------------------------------------------------------------------------------------------------------ */
 
-/* Walls with the most rest: a light stands before them. Fills places to begin at. @return how many */
+/* Walls with the most unexplained light, which have a light in front. Fills starting places for searches. @return how
+ * many */
 static unsigned find_seeds(const struct solving *s, double scale, double seeds[][3], unsigned most)
 {
 	double (*const sum)[7] = s->sums;
@@ -237,7 +239,7 @@ static unsigned find_seeds(const struct solving *s, double scale, double seeds[]
 	return n;
 }
 
-/* A place that was searched for, and what a light there explains. */
+/* The place that a search ended at, and what a light there explains. */
 struct found {
 	double at[3], value;
 };
@@ -271,8 +273,9 @@ static unsigned follow_seeds(const struct solving *s, double scale, unsigned cha
 }
 
 /*
- * One more light where it explains most. A search looks at few samples; all of them together decide. A light that
- * explains a few texels only, which no light explains, is none. @return 1; 0: none explains enough
+ * Add the light that explains the most. Searches use few samples, but the decision uses all of them. A light that
+ * explains only a few texels is rejected.
+ * @return 1; 0: none explains enough
  */
 static int add_light(struct solving *s, double scale, unsigned char *sees)
 {
@@ -296,7 +299,7 @@ static int add_light(struct solving *s, double scale, unsigned char *sees)
 	return 0;
 }
 
-/* Each light moves to where it explains best what the others leave, until all have settled. */
+/* Move each light to where it best explains what the others leave, until all have settled. */
 static void polish(struct solving *s, double scale, unsigned char *sees)
 {
 	int moves = 1;
@@ -317,7 +320,7 @@ static void polish(struct solving *s, double scale, unsigned char *sees)
 	}
 }
 
-/* Lights that explain next to nothing go, or a few texels only. */
+/* Remove lights that explain next to nothing, or only a few texels. */
 static void prune(struct solving *s)
 {
 	double all = 0;
@@ -344,7 +347,7 @@ static void prune(struct solving *s)
 	leave_rest(s, SOLVE_MOST_LIGHTS);
 }
 
-/* How far off the lights are at a sample, in its worst channel. */
+/* The error at a sample, in its worst channel. */
 static double off_by(const struct sample *x)
 {
 	double most = 0;
@@ -355,9 +358,9 @@ static double off_by(const struct sample *x)
 }
 
 /*
- * Some samples lie: a vertex at the rim of a shadow may stand on its other side. Those that the lights explain worst
- * are left out, with a stricter measure each time, and the lights move to where they explain the others. Where that
- * would be many, it is the lights that lie.
+ * Some samples are wrong: a vertex at the rim of a shadow may be on its other side. Leave out the ones that the
+ * lights explain worst, with a stricter limit each time, and move the lights to fit the rest. If too many would be
+ * left out, the lights are wrong instead.
  */
 static void leave_out_strays(struct solving *s, double scale, unsigned char *sees)
 {
@@ -378,7 +381,7 @@ static void leave_out_strays(struct solving *s, double scale, unsigned char *see
 	}
 }
 
-/* What the lights do not explain: strays count. */
+/* The error that the lights leave, samples left out included. */
 static double residual_of(struct solving *s)
 {
 	for (size_t i = 0; i < s->n; i++)

@@ -1,7 +1,7 @@
 /*
- * Lights from lightmaps. A texel's light is ambient + sum over lights of color x max(0, cos) x visible / d^2, cut off
- * at 1. Lights are found one by one, each where it explains most of what the others leave; places by search, strengths
- * of all together by non-negative least squares.
+ * Lights from lightmaps. The light of a texel is ambient + sum over lights of color x max(0, cos) x visible / d^2,
+ * cut off at 1. Lights are added one at a time, each where it explains the most of what the others leave. Positions
+ * are found by search, all strengths together by non-negative least squares.
  */
 #pragma once
 
@@ -12,12 +12,12 @@ enum { SOLVE_MOST_LIGHTS = 16 };
 struct solved {
 	struct solved_light {
 		double at[3], color[3]; /* in the world; radiant at 1 unit */
-		double share;           /* of the light in the lightmaps that it explains, [0,1] */
+		double share;           /* share of the light in the lightmaps that it explains, [0,1] */
 	} lights[SOLVE_MOST_LIGHTS];
 	unsigned n;
 	double ambient[3];
-	double residual, signal; /* root of mean squares: what is not explained, and what was there */
-	size_t texels;           /* that were looked at */
+	double residual, signal; /* root mean squares: the unexplained light, and all light */
+	size_t texels;           /* number of texels used */
 };
 
 /** @return 0 or ERR_SYSTEM (reported). out->n 0: there are no lightmaps, or no light explains them */

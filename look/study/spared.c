@@ -11,7 +11,7 @@
 
 enum { MOST_RULES = 256 };
 
-/* Each draw tells its own sides (look/sides.h), so that frames do not vote on them. */
+/* Each draw decides by itself which sides it shows (look/sides.h), so frames do not vote on that. */
 static const uint32_t bits[SPARED_BITS] = { SCENE_HIDDEN_FROM_LIGHTS, SCENE_STOPS_NO_SUN };
 
 /* --- Votes ------------------------------------------------------------------------------------------------------- */
@@ -97,7 +97,7 @@ void spared_free(struct spared *s)
 
 /* --- Rules ------------------------------------------------------------------------------------------------------- */
 
-/* What most frames say. share: of frames that agree */
+/* The decision of most frames. @param share  receives the share of frames that agree */
 static uint32_t decide(const uint32_t votes[SPARED_BITS], uint32_t frames, double *share)
 {
 	uint32_t decided = 0, fewest = frames;
@@ -112,7 +112,7 @@ static uint32_t decide(const uint32_t votes[SPARED_BITS], uint32_t frames, doubl
 	return decided;
 }
 
-/* A rule about to be written. */
+/* A rule to be added. */
 struct rule {
 	uint32_t decided, frames;
 	double share;
@@ -126,7 +126,7 @@ static struct rule rule_of(const struct spared_entry *e)
 	return r;
 }
 
-/* What most meshes of a kind do, each in so many frames. */
+/* The decision of most meshes of a kind, weighted by their frames. */
 static struct rule rule_of_kind(const struct spared *s, uint32_t lit)
 {
 	uint32_t votes[SPARED_BITS] = { 0 };

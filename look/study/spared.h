@@ -1,10 +1,10 @@
 /*
- * What is spared as a blocker of light (look/spare.h), once for a recording: what most of its frames say. Each frame
- * alone would decide by what it shows, and shadows would come and go as something moves.
+ * Decisions about which surfaces block no light (look/spare.h), made once for the whole recording by a majority of
+ * its frames. If each frame decided alone, shadows would come and go as things move.
  *
- * Frames vote by mesh and by texture, lit draws and others apart. A mesh that is drawn more than once in a frame is
- * spared there only where all of them are: what stands in the lit world counts. Meshes that are in one frame only
- * (their points move) go by their texture, what has none by most of its kind.
+ * Frames vote on meshes and on textures, separately for lit and unlit draws. A mesh drawn several times in a frame is
+ * spared there only if all its draws are, because one of them may be in the lit world. Meshes that occur in one frame
+ * only (their points move) follow their texture, and those without a texture follow the majority of their kind.
  */
 #pragma once
 
@@ -16,13 +16,13 @@
 
 enum { SPARED_BITS = 2 };
 
-/* How frames decide about a mesh, or a texture. */
+/* Votes on a mesh or a texture. */
 struct spared_entry {
 	uint64_t hash[2];
 	uint32_t is_texture, lit;
-	uint32_t frames, votes[SPARED_BITS]; /* of these, for each bit of spared.c's list */
-	uint32_t last, bits;                 /* number of the last frame, counted from 1, and what it says so far */
-	size_t texture;                      /* index + 1 of the entry of a mesh's texture; 0: none */
+	uint32_t frames, votes[SPARED_BITS]; /* votes: how many of the frames voted for each bit of spared.c's list */
+	uint32_t last, bits;                 /* the last frame, counted from 1, and its decision so far */
+	size_t texture;                      /* for a mesh: index + 1 of its texture's entry; 0: none */
 };
 
 /* All zero: nothing was seen. */
@@ -30,8 +30,8 @@ struct spared {
 	struct spared_entry *entries;
 	size_t n, room;
 	struct table by_key; /* -> index + 1 */
-	uint32_t frames;     /* with something that OpenGL lights */
-	uint32_t any;        /* bits that any frame gives anything */
+	uint32_t frames;     /* frames with something that OpenGL lights */
+	uint32_t any;        /* bits that any frame gives to anything */
 };
 
 /** Study one more frame. @return 0 or ERR_SYSTEM (reported) */

@@ -24,13 +24,14 @@
 #include "look/study/tricks.h"
 #include "look/study/volumes.h"
 
-/* The sine of the lowest height of a sun that lights the ground. */
+/* The sine of the lowest elevation of a sun that lights the ground. */
 #define LOWEST_SUN 0.1
 
 struct study {
 	struct motion motion;
 	struct tricks tricks;
-	struct lightmaps lightmaps, baked; /* light in textures, and in vertex colours where there is none in textures */
+	struct lightmaps lightmaps, baked; /* light in textures; light in vertex colours, used if there is none in
+	                                      textures */
 	struct solved solved;
 	struct dome dome;
 	struct cast cast;
@@ -40,7 +41,7 @@ struct study {
 	struct floors floors;
 	struct spared spared;
 	struct seen seen;
-	unsigned lit, glossy; /* materials of all frames; of these, such as mirror a little */
+	unsigned lit, glossy; /* materials of all frames that are lit; those that mirror a little */
 };
 
 int study_create(struct study **out)
@@ -131,8 +132,8 @@ int study_finish(struct study *study)
 	return maps->n ? solve_lights(maps, &study->solved) : 0;
 }
 
-/* What shines in a world that OpenGL does not light, and lightmaps do not either: the sky's sun, lamps. up: receives
- * the world's */
+/* Find lights in a world that neither OpenGL nor lightmaps light: the sun in the sky, and lamps. @param up  receives
+ * the world's up */
 static void find_shining(const struct study *study, double up[3], int *is_sunny, int *has_lamps)
 {
 	const int is_dark = dome_is_wanted(&study->dome) && !study->lightmaps.n && !relight_is_known(&study->solved);

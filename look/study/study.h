@@ -1,7 +1,7 @@
 /*
- * A recording, studied: scene after scene goes in, findings (look/findings.h) come out.
+ * A study of a recording: it takes scene after scene and finds rules (look/findings.h).
  *
- * motion.h finds the camera and what moves; the other files look at what was drawn in its light.
+ * motion.h finds the camera and what moves; the other files rely on it to interpret what was drawn.
  */
 #pragma once
 
@@ -16,22 +16,22 @@ struct study;
 int study_create(struct study **out);
 void study_destroy(struct study **study);
 
-/** How many frames a study takes. */
+/** The largest number of frames that a study takes. */
 uint64_t study_most_frames(void);
 
 /**
  * Study one more frame.
- * @param scene  of a later frame than the last; nothing of it is kept
+ * @param scene  later than the last one; not kept
  * @return 0 or ERR_SYSTEM (reported)
  */
 int study_add(struct study *study, const struct scene *scene);
 
-/** After the last frame: solve for lights. @return 0 or ERR_SYSTEM (reported) */
+/** Solve for lights, after the last frame. @return 0 or ERR_SYSTEM (reported) */
 int study_finish(struct study *study);
 
 /**
- * Find the rules, each with its role, its confidence and why.
- * @param out  empty; findings_free in any case
+ * Find the rules, each with its role, confidence and reason.
+ * @param out  empty; call findings_free even on failure
  * @return 0 or ERR_SYSTEM (reported)
  */
 int study_find(const struct study *study, struct findings *out);

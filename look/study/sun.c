@@ -11,21 +11,22 @@
 #include "look/matrix.h"
 
 enum { MOST_FRAMES = 16, PLACES = 64, WHITE = 250, PER_INSTANCE = 4 };
-/* A spot's share of its texture, how much of its circle it fills, and how bright the texture may be otherwise. */
+/* Limits for a spot: its share of the texture, how much of its circle it fills, and the brightness elsewhere in the
+ * texture. */
 #define SMALLEST 2e-4
 #define LARGEST 0.03
 #define ROUND 0.6
 #define DARKER 0.85
-/* All frames have it within five degrees; at least so much of what is in sight is open to it. */
+/* The directions in all frames are within five degrees; at least this share of the visible places is open to it. */
 #define SAME 0.996
 #define OPEN 0.5
-/* The sun's share of the light on level ground at most, and how strong it is at most; what shines from all sides beside
- * lamps alone. */
+/* Limits of the sun's share of the light on level ground and of its strength, and the ambient light beside lamps
+ * alone. */
 #define SHARE 0.5
 #define STRONGEST 1.0
 #define WITHOUT 0.85
 
-/* The middle of a texture's spot, in [0,1]. @return 0: there is none */
+/* Find the centre of a texture's spot, in [0,1]. @return 0: there is none */
 static int find_spot(const struct scene_texture *t, double at[2])
 {
 	double sum[2] = { 0, 0 }, square = 0, all = 0, n = 0, size = (double)t->width * t->height, radius;
@@ -54,13 +55,13 @@ static int find_spot(const struct scene_texture *t, double at[2])
 		at[0] = sum[0] / n;
 		at[1] = sum[1] / n;
 	}
-	radius = square / n; /* half the square of a disk's */
+	radius = square / n; /* half the square of a disk's radius */
 	at[0] /= t->width;
 	at[1] /= t->height;
 	return n >= 4 && n > ROUND * 2 * 3.14159265 * radius;
 }
 
-/* The same, looked for once for each texture. NULL: there is none, or there were too many textures */
+/* The spot of a texture, searched for once per texture. NULL: there is none, or there were too many textures */
 static const double *spot_of(struct sun *sun, const struct scene_texture *t)
 {
 	struct sun_picture *p = sun->pictures;
@@ -77,7 +78,7 @@ static const double *spot_of(struct sun *sun, const struct scene_texture *t)
 	return p->has_spot ? p->at : NULL;
 }
 
-/* The place in eye space where a mesh shows a place of its texture. @return 0: it does not */
+/* The point in eye space where a mesh shows a point of its texture. @return 0: it does not */
 static int find_place(const struct scene *s, const struct scene_instance *in, const struct scene_unit *u,
                       const double at[2], double out[3])
 {
@@ -107,7 +108,7 @@ static int find_place(const struct scene *s, const struct scene_instance *in, co
 	return 0;
 }
 
-/* The direction of the spot that a frame's sky shows, in eye space. */
+/* The direction, in eye space, of the spot in a frame's sky. */
 static int find_towards(struct sun *sun, const struct scene *s, const uint8_t *layers, double towards[3], int *has_sky)
 {
 	int found = 0;
@@ -134,7 +135,7 @@ static int find_towards(struct sun *sun, const struct scene *s, const uint8_t *l
 	return found;
 }
 
-/* How much of what is in sight is open to a direction. */
+/* Count the visible places and those from where a direction is unobstructed. */
 static int count_open(struct sun *sun, const struct scene *s, const uint8_t *layers, const double towards[3])
 {
 	struct blockers *blockers;

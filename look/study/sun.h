@@ -1,6 +1,6 @@
 /*
- * A sun that a sky shows: a small round spot of white texels in a picture that is darker all about, at one place of the
- * world in all frames. It lights a world that nothing else lights, where most of what is in sight is open to it.
+ * A sun in the sky: a small round spot of white texels in an otherwise darker picture, at the same place of the world
+ * in all frames. It lights a world without other lights, if most visible places are open to it.
  */
 #pragma once
 
@@ -12,27 +12,27 @@
 
 enum { SUN_PICTURES = 64 };
 
-/* All zero: nothing was seen. */
+/* All zero: empty. */
 struct sun {
 	struct sun_picture {
-		uint64_t hash[2]; /* of a texture, */
-		double at[2];     /* and where its spot is, in [0,1] */
+		uint64_t hash[2]; /* hash of a texture */
+		double at[2];     /* the centre of its spot, in [0,1] */
 		int has_spot;
 	} pictures[SUN_PICTURES];
 	unsigned n_pictures;
 	double towards[3]; /* sum of unit vectors, in the world */
-	unsigned skies, frames; /* frames with a sky; of these, with a spot */
-	unsigned open, places;  /* places in sight: those that the spot can light, of all */
+	unsigned skies, frames; /* frames with a sky; those with a spot */
+	unsigned open, places;  /* visible places that the spot can light; all visible places */
 };
 
 /**
  * Study one more frame, after motion_add.
- * @param layers  which instances are of a sky (layer.h)
+ * @param layers  which instances belong to a sky (layer.h)
  * @return 0 or ERR_SYSTEM (reported)
  */
 int sun_add(struct sun *sun, const struct scene *scene, const struct motion *motion, const uint8_t *layers);
 
-/** Whether there is one. towards: receives the unit vector, in the world */
+/** 1 if there is a sun. @param towards  receives the unit vector, in the world */
 int sun_is_there(const struct sun *sun, double towards[3]);
 
 /** The rule for surfaces that the sun or lamps light. */

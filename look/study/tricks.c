@@ -5,7 +5,7 @@
 
 #include "look/flattened.h"
 
-/* The same light or plane, said twice: lights of one level are farther from each other. */
+/* Tolerance for the same light or plane; lights of one level are further apart. */
 #define SAME 0.01
 
 static double planes_apart(const double a[4], const double b[4])
@@ -17,7 +17,7 @@ static double planes_apart(const double a[4], const double b[4])
 	return fmax(sqrt(off), fabs(a[3] - b[3]) / (1 + fabs(a[3])));
 }
 
-/* The mean of all that was said so far. */
+/* Update the mean of all observations. */
 static void take_in(struct trick_found *f, const struct trick_found *what)
 {
 	double length = 0;
@@ -47,7 +47,7 @@ struct trick_found *tricks_note(struct tricks *t, const struct trick_found *said
 		turned.plane[k] = -said->plane[k];
 	for (; f < t->found + t->n && !is_same_trick(f, said); f++)
 		if (said->kind == TRICK_MIRROR && is_same_trick(f, &turned)) {
-			what = &turned; /* seen from its other side */
+			what = &turned; /* the same plane, seen from its other side */
 			break;
 		}
 	if (f == t->found + TRICKS_MAX)

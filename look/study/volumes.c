@@ -11,9 +11,9 @@
 
 enum { MAX_LINES = 3000, GUESSES = 400, LEAST_MEETING = 8 };
 
-/* A line through an edge: a place and a unit vector. */
+/* A line along an edge: a point and a unit vector. */
 struct line {
-	double at[3], along[3], length; /* HUGE_VAL: to infinity */
+	double at[3], along[3], length; /* HUGE_VAL: infinite */
 };
 
 static int counts(uint32_t op)
@@ -21,7 +21,7 @@ static int counts(uint32_t op)
 	return op == GL_INCR || op == GL_DECR || op == GL_INCR_WRAP || op == GL_DECR_WRAP;
 }
 
-/* Which kind of volume a draw counts; N_TRICKS: none. */
+/* The kind of volume that a draw counts; N_TRICKS: none. */
 static enum trick volume_of(const struct scene_material *m)
 {
 	if ((m->color_mask & 7) || !m->stencil_test || !m->depth_test)
@@ -31,7 +31,7 @@ static enum trick volume_of(const struct scene_material *m)
 	return counts(m->stencil_front.zpass) || counts(m->stencil_back.zpass) ? TRICK_VOLUME_Z_PASS : N_TRICKS;
 }
 
-/* The line through two vertices of a mesh in eye space; w 0 is at infinity. @return 0: there is none */
+/* The line through two vertices of a mesh, in eye space; w 0 is at infinity. @return 0: there is none */
 static int line_through(const double eye[16], const float *a, const float *b, struct line *line)
 {
 	double p[4], q[4], length;
@@ -58,8 +58,7 @@ static int longer(const void *a, const void *b)
 	return x < y ? 1 : x > y ? -1 : 0;
 }
 
-/* Lines through the longest edges of a volume: those that lead away from the light, and some others. @return how
- * many */
+/* Lines along the longest edges of a volume: those that lead away from the light, and some others. @return how many */
 static size_t longest_edges(const struct scene_mesh *mesh, const double eye[16], struct line *lines)
 {
 	size_t n = 0;
@@ -77,8 +76,8 @@ static size_t longest_edges(const struct scene_mesh *mesh, const double eye[16],
 }
 
 /*
- * How far a line passes by a place, over how far the place is from where the line begins: the sine of the angle that it
- * is off. `to`: homogeneous; w 0 is a direction.
+ * The distance of a line from a point over the distance of the point from the line's beginning: the sine of the angle
+ * of error. `to` is homogeneous; w 0 is a direction.
  */
 static double passes_by(const struct line *l, const double to[4])
 {
@@ -91,7 +90,7 @@ static double passes_by(const struct line *l, const double to[4])
 	return square > 0 ? sqrt(fmax(0, square - along * along) / square) : 0;
 }
 
-/* Where two lines come nearest to each other, or their direction where they are parallel. */
+/* The midpoint of the closest approach of two lines, or their direction if they are parallel. */
 static void meet(const struct line *a, const struct line *b, double out[4])
 {
 	double ab = matrix_dot3(a->along, b->along), below = 1 - ab * ab, way[3], s;
@@ -104,8 +103,7 @@ static void meet(const struct line *a, const struct line *b, double out[4])
 	out[3] = below > 1e-10;
 }
 
-/* The place that is nearest to all lines that pass by it, in the sense of least squares (normal equations, solved by
- * Cramer's rule). */
+/* The point nearest to all lines that pass close to it: least squares (normal equations, solved by Cramer's rule). */
 static void refine(const struct line *lines, size_t n, double near, double light[4])
 {
 	double m[16] = { 0 }, right[4] = { 0 }, inverse[16];
@@ -131,7 +129,7 @@ static void refine(const struct line *lines, size_t n, double near, double light
 	light[3] = 1;
 }
 
-/* The place in which most lines meet. @return how many do; 0: too few for a light */
+/* The point where most lines meet. @return how many do; 0: too few for a light */
 static size_t find_light(const struct line *lines, size_t n, double light[4])
 {
 	const double near = 2e-3;
@@ -160,11 +158,11 @@ static size_t find_light(const struct line *lines, size_t n, double light[4])
 	for (size_t i = 0; i < n; i++)
 		final += passes_by(&lines[i], light) < near;
 	if (light[3] == 0 && lines[0].length < HUGE_VAL)
-		return 0; /* which end is the far one? */
+		return 0; /* the far end is unknown */
 	return final >= LEAST_MEETING && 4 * final >= n ? final : 0;
 }
 
-/* Edges begin at outlines and lead away: a direction towards the light is against them. */
+/* Make a direction point towards the light: edges begin at outlines and lead away from it. */
 static void face_light(const struct line *lines, size_t n, double light[4])
 {
 	double sum = 0;
@@ -192,7 +190,7 @@ static int study_volume(struct tricks *t, const struct scene *s, const struct sc
 		face_light(lines, n, light);
 		what.has_opengl_light = flattened_is_lit(s, light, NULL);
 		matrix_transform(what.light, inverse, light);
-		what.light[3] = light[3]; /* the camera neither brings near nor takes away what is infinitely far */
+		what.light[3] = light[3]; /* the camera's position does not change an infinite distance */
 		tricks_note(t, &what, motion->n_frames);
 	}
 	free(lines);

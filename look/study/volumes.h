@@ -1,6 +1,6 @@
 /*
- * Shadow volumes in the stencil buffer (Crow 1977; Heidmann 1991 z-pass, Bilodeau and Songy 1999 z-fail): draws without
- * colour that count faces. Edges that lead from an outline away from the light all meet in it.
+ * Shadow volumes in the stencil buffer (Crow 1977; Heidmann 1991 z-pass, Bilodeau and Songy 1999 z-fail): draws
+ * without colour that count faces. Edges that lead from an outline away from the light all meet in the light.
  */
 #pragma once
 
