@@ -16,7 +16,7 @@ static const cyaml_schema_field_t *field_of(const cyaml_schema_field_t *fields, 
 	return fields;
 }
 
-/* Numbers as read from the text that a file would have. NULL: out of memory */
+/* Numbers parsed from their text in the file. NULL: out of memory */
 static float *numbers_of(const struct finding_value *v)
 {
 	const unsigned n = v->n ? v->n : 1;
@@ -37,7 +37,7 @@ static void *copy(const void *data, size_t n)
 	return out ? memcpy(out, data, n) : NULL;
 }
 
-/* A value in memory of its own, as rules point to it. NULL: out of memory */
+/* A copy of a value for rules to point to. NULL: out of memory */
 static void *value_of(const struct finding_value *v)
 {
 	char hash[33];
@@ -52,7 +52,7 @@ static void *value_of(const struct finding_value *v)
 	}
 }
 
-/* The member of a struct that a schema calls `field`; it is a pointer. */
+/* The pointer in a struct that a schema describes as `field`. */
 static void *member_get(const void *data, const cyaml_schema_field_t *field)
 {
 	void *member;
@@ -84,7 +84,7 @@ static int set_value(void *rule, const cyaml_schema_field_t *fields, const struc
 	return member_get(rule, field) ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 }
 
-/* The rules of a list, or the only one of a key that has a single rule. */
+/* Fill a list of rules, or the rule of a key that has only one. */
 static int fill_list(struct rules *rules, const struct findings *findings, enum findings_list list)
 {
 	const cyaml_schema_field_t *field = field_of(rules_schema.mapping.fields, findings_key(list)), *fields;

@@ -12,10 +12,10 @@
 #include "scene/backdrop.h"
 #include "scene/depths.h"
 
-/* Of eye space's coordinates: rays are found in boxes that their triangles lie in by this much. */
+/* Boxes are larger than their triangles by this share of the coordinates in eye space. */
 #define MARGIN 1e-4f
-#define CLUSTER 32u /* triangles that share a box; neighbours in a mesh mostly lie side by side */
-#define GROUP 32u   /* clusters that share one */
+#define CLUSTER 32u /* triangles that share a box; neighbours in a mesh are mostly close together */
+#define GROUP 32u   /* clusters that share a box */
 
 struct box {
 	float low[3], high[3];
@@ -23,10 +23,10 @@ struct box {
 
 struct blockers {
 	const struct scene *scene;
-	struct box *boxes;       /* mesh after mesh: of its clusters, then of its groups of clusters */
-	uint32_t *first;         /* [mesh]: its first box; SCENE_NONE: it has none */
+	struct box *boxes;       /* for each mesh: boxes of its clusters, then of its groups of clusters */
+	uint32_t *first;         /* [mesh]: index of its first box; SCENE_NONE: it has none */
 	float (*eye_inverse)[16]; /* [instance]: from eye to object space */
-	struct box *around;      /* [instance]: in eye space, of those that block */
+	struct box *around;      /* [instance]: box in eye space, for those that block */
 	uint8_t *blocks;         /* [instance] */
 };
 
@@ -55,7 +55,7 @@ static uint32_t group_count(const struct scene_mesh *mesh)
 
 static const struct box nowhere = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
 
-/* Widen a box to hold a place between low and high. */
+/* Extend a box to contain everything between low and high. */
 static void widen(struct box *box, const float low[3], const float high[3])
 {
 	for (int k = 0; k < 3; k++) {
@@ -64,7 +64,7 @@ static void widen(struct box *box, const float low[3], const float high[3])
 	}
 }
 
-/* Four numbers of each corner, though three count: compilers make one instruction of four. */
+/* Corners have four numbers, of which three count: compilers then use one instruction for all four. */
 OPTIMIZE("O3")
 static struct box box_cluster(const struct scene_mesh *mesh, uint32_t cluster)
 {
@@ -82,7 +82,7 @@ static struct box box_cluster(const struct scene_mesh *mesh, uint32_t cluster)
 	return (struct box){ { low[0], low[1], low[2] }, { high[0], high[1], high[2] } };
 }
 
-/* All boxes of a mesh. */
+/* Compute all boxes of a mesh. */
 static void box_mesh(const struct scene_mesh *mesh, struct box *boxes)
 {
 	const uint32_t n = cluster_count(mesh);
@@ -95,7 +95,7 @@ static void box_mesh(const struct scene_mesh *mesh, struct box *boxes)
 	}
 }
 
-/* A box in eye space around all groups of an instance, a little wider than they are. */
+/* A box in eye space around all groups of an instance, with a margin. */
 static struct box box_around(const struct blockers *b, const struct scene_instance *in)
 {
 	const struct scene_mesh *mesh = b->scene->meshes[in->mesh];
@@ -128,7 +128,7 @@ static struct box box_around(const struct blockers *b, const struct scene_instan
 	return out;
 }
 
-/* Boxes of all meshes and instances that block. */
+/* Compute the boxes of all meshes and instances that block. */
 static int make_boxes(struct blockers *b)
 {
 	const struct scene *s = b->scene;
@@ -199,7 +199,7 @@ int blockers_has(const struct blockers *b, uint32_t instance)
 
 /* --- Rays, in eye space ------------------------------------------------------------------------------------------ */
 
-/* How a ray meets boxes: 1 / direction, and how far off it may be by rounding. */
+/* A ray prepared for boxes: 1 / direction, and the rounding error of positions along it. */
 struct sight {
 	float from[3], over[3], t_max, margin;
 };
@@ -216,7 +216,7 @@ static struct sight sight_of(const float from[3], const float direction[3], floa
 	return s;
 }
 
-/* 0 where the ray passes by. What is no number counts as a hit. */
+/* 0 if the ray misses the box. NaN counts as a hit. */
 static int may_meet(const struct sight *s, const struct box *box)
 {
 	float near = 0, far = s->t_max;
@@ -267,7 +267,7 @@ static float dot(const float a[3], const float b[3])
 	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Where a line meets a triangle (Moeller and Trumbore 1997); 0: nowhere */
+/* The position along a line where it meets a triangle (Moeller and Trumbore 1997); 0: nowhere */
 static float meet_triangle(const struct line *r, const float *a, const float *b, const float *c)
 {
 	float ab[3], ac[3], p[3], q[3], s[3], det, u, v, t;
@@ -298,8 +298,7 @@ static enum blocker_side side_met(const struct blockers *b, const struct scene_i
 	return towards[0] * d[0] + towards[1] * d[1] + towards[2] * d[2] < 0 ? BLOCKER_SHOWN : BLOCKER_OTHER;
 }
 
-/* The first cluster from k on that is in a group which the line meets; a line meets a group where it meets one of its
- * clusters. */
+/* The first cluster from k on whose group the line meets. A group's box contains those of its clusters. */
 static uint32_t next_cluster(const struct line *r, const struct box *groups, uint32_t k, uint32_t n)
 {
 	while (k % GROUP == 0 && k < n && !meets_box(r, &groups[k / GROUP]))

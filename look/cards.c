@@ -6,9 +6,9 @@
 #include "base/err.h"
 #include "base/mat4.h"
 
-/* Cards of a tree follow each other in the order of drawing: so far back the other ones are looked for. */
+/* The cards of a tree are drawn one after another: each is compared with this many before it. */
 #define NEIGHBOURS 4u
-#define MOST_TRIANGLES 16384u /* of a mesh; more are no cards */
+#define MOST_TRIANGLES 16384u /* in a mesh; larger meshes are no cards */
 
 /* A flat cut-out in eye space. */
 struct card {
@@ -27,7 +27,7 @@ static int may_be_cards(const struct scene *s, const struct scene_instance *in)
 	       (m->alpha_test || m->blend) && s->views[in->view].target == 0;
 }
 
-/* Two triangles in a row that are a parallelogram. @return 0: they are none */
+/* Two consecutive triangles that form a parallelogram. @return 0: they do not */
 static int card_of(const struct scene *s, uint32_t instance, uint32_t first, struct card *out)
 {
 	const struct scene_instance *in = &s->instances[instance];
@@ -61,7 +61,7 @@ static int card_of(const struct scene *s, uint32_t instance, uint32_t first, str
 	       fabsf(along) > 0.999f * sqrtf(length[0] * length[1]);
 }
 
-/* 1 where two cards stand in one place, turned by 20 degrees or more. */
+/* 1 if two cards share a centre and are at least 20 degrees apart. */
 static int do_cross(const struct card *a, const struct card *b)
 {
 	float apart = 0, cosine = 0;

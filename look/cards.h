@@ -4,9 +4,9 @@
 #include "scene/scene.h"
 
 /**
- * Find instances of which at least half of the rectangles cross a neighbour.
- * @param bits   [n_instances]: crossed ones get this bit
- * @param count  how many did
+ * Find instances with crossed cards: at least half of their rectangles cross a neighbour.
+ * @param bits   [n_instances]: these instances get this bit
+ * @param count  receives their number
  * @return 0 or ERR_SYSTEM (reported)
  */
 int cards_find(const struct scene *scene, uint32_t bit, uint32_t *bits, uint32_t *count);

@@ -8,7 +8,7 @@ static const struct scene_material *material_of(const struct scene *s, uint32_t 
 	return &s->materials[s->instances[i].material];
 }
 
-/* 1 where a draw leaves the depth of all of its body that nothing hides. */
+/* 1 if a draw writes the depth of every visible part of its body. */
 static int leaves_whole(const struct scene_material *m)
 {
 	return m->depth_test && m->depth_write && m->depth_func != GL_EQUAL && !m->alpha_test && !m->stencil_test &&

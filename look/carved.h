@@ -1,9 +1,9 @@
 /*
- * Draws of GL_EQUAL show where the depth buffer already holds their depth. If no earlier draw left that depth with the
- * whole of the same body, they show a part of it that is not known from its geometry: what a solid is carved to by
- * others (constructive solid geometry in the depth buffer, Goldfeather et al. 1989, "Near Real-Time CSG Rendering Using
- * Tree Normalization and Geometric Pruning"), or what a decal is cut to. The rest of the body is nowhere, so it stops
- * no light. What left the depth does, as any other draw.
+ * Draws under GL_EQUAL appear where the depth buffer already holds their depth. If no earlier draw of the whole body
+ * wrote that depth, only a part of the body is visible, and its geometry does not tell which: a solid carved by
+ * others (constructive solid geometry in the depth buffer, Goldfeather et al. 1989, "Near Real-Time CSG Rendering
+ * Using Tree Normalization and Geometric Pruning"), or the outline of a decal. The rest of the body does not exist,
+ * so it blocks no light. The draw that wrote the depth blocks light as usual.
  */
 #pragma once
 
@@ -11,6 +11,6 @@
 
 /**
  * @param bits  [n_instances]: receives SCENE_FILM
- * @return how many instances there are
+ * @return the number of instances found
  */
 uint32_t carved_find(const struct scene *scene, uint32_t *bits);

@@ -8,7 +8,7 @@ static inline const float *corner_place(const struct scene_mesh *mesh, uint32_t 
 	return mesh->position + 4 * (size_t)mesh->index[3 * (size_t)primitive + corner];
 }
 
-/* The normal that lights a corner: the mesh's own, or the current one. */
+/* The normal that lights a corner: the mesh's own, or the current normal. */
 static inline const float *corner_normal(const struct scene *scene, const struct scene_instance *in, uint32_t primitive,
                                          unsigned corner)
 {

@@ -7,20 +7,19 @@
 #include "base/err.h"
 
 #define DEGREE 0.017453292519943295f
-/* Places are one where they are the same in so many steps of the mesh's size: programs close their rounds with sin(2
- * pi). */
+/* Positions are equal if they agree in this many steps of the mesh's size: programs close circles with sin(2 pi). */
 #define STEPS 262144.0f
-/* Corners at one place; a fan of more stays flat. */
+/* at one position; a larger fan stays flat */
 enum { MOST_CORNERS = 1024 };
 
 struct corner {
 	int32_t place[3];
-	uint32_t number; /* 3 x primitive + its corner */
+	uint32_t number; /* 3 x primitive + corner */
 };
 
-/* Of each primitive. */
+/* One primitive. */
 struct facet {
-	float normal[3]; /* unit vector on the side of the program's own; all 0: it has no area */
+	float normal[3]; /* unit vector on the side of the program's normal; all 0: the primitive has no area */
 	float angle[3];  /* at its corners */
 	int is_flat;
 };
@@ -36,7 +35,7 @@ static float dot(const float a[3], const float b[3])
 	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* @return its length before */
+/* @return the length before */
 static float normalize(float v[3])
 {
 	const float length = sqrtf(dot(v, v));
@@ -71,7 +70,7 @@ static struct facet facet_of(const struct scene_mesh *mesh, uint32_t primitive, 
 		f.angle[i] = acosf(fmaxf(-1, fminf(1, -dot(edge[i], edge[(i + 2) % 3]))));
 	for (int k = 0; k < 3; k++)
 		f.normal[k] = edge[0][(k + 1) % 3] * edge[1][(k + 2) % 3] - edge[0][(k + 2) % 3] * edge[1][(k + 1) % 3];
-	/* The last corner's is the one that counts under flat shading. */
+	/* The last corner's normal is the one used under flat shading. */
 	normalize(f.normal);
 	for (int k = 0; k < 3 && dot(f.normal, corner_normal(mesh, first + 2)) < 0; k++)
 		f.normal[k] = -f.normal[k];
@@ -88,7 +87,7 @@ static int compare_corners(const void *a, const void *b)
 	return one->number < other->number ? -1 : one->number > other->number;
 }
 
-/* All corners, those of a place side by side. */
+/* All corners, sorted so that those at one position are adjacent. */
 static void sort_corners(const struct scene_mesh *mesh, struct corner *corners)
 {
 	const uint32_t n = 3 * mesh->primitive_count;
@@ -108,7 +107,7 @@ static void sort_corners(const struct scene_mesh *mesh, struct corner *corners)
 	qsort(corners, n, sizeof(*corners), compare_corners);
 }
 
-/* The normal of a corner among those of its place. */
+/* The mean normal of a corner and the others at its position. */
 static void mean_normal(const struct facet *facets, const struct corner *corners, uint32_t n, const struct corner *own,
                         float least, float out[3])
 {
@@ -175,7 +174,7 @@ int crease_smooth(const struct scene_mesh *mesh, int flat, float angle, struct s
 		*made = *mesh;
 		made->crease = normals;
 		memcpy(&bits, &angle, sizeof(bits));
-		made->hash[0] ^= 0x63726561u + (uint32_t)flat; /* another mesh for all caches */
+		made->hash[0] ^= 0x63726561u + (uint32_t)flat; /* caches must treat it as another mesh */
 		made->hash[1] ^= bits;
 		*out = made;
 	}

@@ -14,7 +14,7 @@ int drawn_mirrored(const struct scene_view *view)
 
 	if (drawn_in_parallel(view))
 		return xy < 0;
-	/* the determinant of x, y and w as they follow from x, y and z; w grows along -z */
+	/* the determinant of x, y and w as functions of x, y and z; w grows along -z */
 	return m[3] * ((double)m[4] * m[9] - (double)m[5] * m[8]) - m[7] * ((double)m[0] * m[9] - (double)m[1] * m[8]) +
 	       m[11] * xy > 0;
 }

@@ -1,16 +1,16 @@
-/* How a program draws something, where rules and studies ask the same. */
+/* How a draw is made, for questions shared by rules and studies. */
 #pragma once
 
 #include "scene/scene.h"
 
-/** 1 where a view shows its space in parallel projection. */
+/** 1 if a view is in parallel projection. */
 int drawn_in_parallel(const struct scene_view *view);
 
-/** 1 where a projection mirrors: what runs clockwise in eye space, to its viewer, does not in the window. */
+/** 1 if a projection mirrors: triangles that run clockwise in eye space run counterclockwise in the window. */
 int drawn_mirrored(const struct scene_view *view);
 
-/** 1 where a draw multiplies what is there by its own colour. */
+/** 1 if a draw multiplies the picture by its own colour. */
 int drawn_multiplies(const struct scene_material *m);
 
-/** 1 where a texture's coordinates are made from what the surface mirrors. */
+/** 1 if a unit's texture coordinates are generated from reflection. */
 int drawn_with_environment(const struct scene *s, const struct scene_material *m);

@@ -6,7 +6,7 @@
 #include "gl_tokens.h"
 
 #define MOST_ALPHA 0.5f
-/* A label has few triangles, and its points are as far off as one another to this share of their distance. */
+/* A label has at most this many triangles, and the distances of its points are equal up to a share. */
 enum { LABEL_PRIMITIVES = 64 };
 #define ACROSS 1e-4f
 

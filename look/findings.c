@@ -8,12 +8,12 @@
 #include "base/err.h"
 #include "base/memory.h"
 
-/* A match with more tests than a line holds continues after this many. */
+/* The tests of a match are broken after TESTS_BEFORE_BREAK if there are more than fit in a line. */
 enum { TESTS_IN_A_LINE = 6, TESTS_BEFORE_BREAK = 5 };
 
 static const struct {
-	const char *key, *begin, *indent; /* begin: what precedes a rule's first line; indent: its later ones */
-	int is_always; /* 1: it is in the file even if it is empty */
+	const char *key, *begin, *indent; /* begin: precedes the first line of a rule; indent: precedes the others */
+	int is_always; /* 1: the key is written even if its list is empty */
 } lists[N_FINDINGS_LISTS] = {
 	[FINDINGS_SURFACES] = { "surfaces", "  - ", "    ", 1 }, [FINDINGS_UNSEEN] = { "unseen", "  - ", "    ", 0 },
 	[FINDINGS_LIGHTS] = { "lights", "  - ", "    ", 1 },     [FINDINGS_SKY] = { "sky", "  ", "  ", 0 },
@@ -169,7 +169,7 @@ static void write_value(const struct finding_value *v, FILE *out)
 	fputs(v->n ? "]" : "", out);
 }
 
-/* The tests of `match`, values[0 .. n-1], as one mapping between braces. */
+/* Write the tests of `match`, values[0 .. n-1], as one mapping in braces. */
 static void write_match(const struct finding_value *values, unsigned n, FILE *out)
 {
 	fputs("match: { ", out);

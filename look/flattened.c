@@ -9,7 +9,7 @@
 #include "look/pairs.h"
 #include "look/solid.h"
 
-/* The same light, said twice: lights of one level are farther from each other. */
+/* Tolerance for the same light; lights of one level are further apart. */
 #define SAME 0.01
 
 double flattened_apart(const double a[4], const double b[4])
@@ -31,7 +31,7 @@ static void turn(double v[4], int n)
 		v[k] = -v[k];
 }
 
-/* A plane shows its lit side: to the light; of a direction, which is known but for its sign, to the viewer. */
+/* Orient a plane towards the light. A direction is known only up to its sign; the plane then faces the viewer. */
 static void orient(double light[4], double plane[4])
 {
 	double along = 0;
@@ -46,7 +46,7 @@ static void orient(double light[4], double plane[4])
 		turn(plane, 4);
 }
 
-/* What a flattening matrix says. @return 0: it is none of a shadow */
+/* Read the light and the plane from a flattening matrix. @return 0: it belongs to no shadow */
 static int read_matrix(const double from_upright[16], double light[4], double plane[4])
 {
 	double length, along = 0;
@@ -82,7 +82,7 @@ int flattened_from(const struct scene *s, uint32_t flat, uint32_t upright, doubl
 	return read_matrix(from_upright, light, plane);
 }
 
-/* 1 where a material is lit by a light of OpenGL's at a place of eye space. */
+/* 1 if a light of OpenGL's at a point of eye space lights a material. */
 static int is_lit_from(const struct scene *s, const struct scene_material *m, const double eye[4])
 {
 	for (uint32_t k = 0; m->lighting && k < m->light_count; k++) {
@@ -96,7 +96,7 @@ static int is_lit_from(const struct scene *s, const struct scene_material *m, co
 	return 0;
 }
 
-/* 1 where a triangle of a mesh lies in a plane of eye space, or a little beside it. */
+/* 1 if a triangle of a mesh lies in a plane of eye space, or close to it. */
 static int touches(const struct scene *s, const struct scene_instance *in, const double plane[4])
 {
 	const struct scene_mesh *mesh = s->meshes[in->mesh];
@@ -145,7 +145,7 @@ int flattened_may_be(const struct scene *s, const struct scene_instance *in)
 
 /* --- In one frame -------------------------------------------------------------------------------- */
 
-/* 1 where some light of OpenGL's is at a place of eye space: most that wrong pairs say is not. */
+/* 1 if a light of OpenGL's is at a point of eye space. The light of a wrong pair usually is not. */
 static int is_light(const struct scene *s, const double light[4])
 {
 	for (uint32_t i = 0; i < s->n_materials; i++)
@@ -154,7 +154,8 @@ static int is_light(const struct scene *s, const double light[4])
 	return 0;
 }
 
-/* Decide about a flat draw and those that it may be the shadow of. @return how many instances got bits */
+/* Decide about a flat draw, given the draws whose shadow it may be. @return the number of instances that received
+ * bits */
 static uint32_t decide(const struct scene *s, const struct pairs *pairs, uint32_t flat, int gives_way, uint32_t *bits)
 {
 	const int may_go = gives_way && (s->materials[s->instances[flat].material].color_mask & 7) != 0;

@@ -18,7 +18,7 @@ uint64_t followed_triangles(const struct scene_mesh *mesh)
 	                            XXH3_64bits(head, sizeof(head)));
 }
 
-/* The key of the next with this one: they are counted. 0: out of memory (reported) */
+/* The key of the next draw with this key; draws with the same key are counted. 0: out of memory (reported) */
 static uint64_t next_key(struct table *counts, uint64_t key)
 {
 	const uintptr_t before = (uintptr_t)table_find(counts, key);

@@ -11,17 +11,18 @@
 #include "look/sides.h"
 
 #define HALF_TURN 3.14159265358979
-/* A place is within a body whose winding number about it is nearer to 1 than to 0. */
+/* A place is inside a body if the winding number there is nearer to 1 than to 0. */
 #define INSIDE 0.5
-/* A triangle that is seen edge-on may seem to show either side: by rounding, it fills so much of all directions. */
+/* A triangle seen edge-on may seem to show either side: because of rounding, it covers up to this share of all
+ * directions. */
 #define EDGE_ON 1e-6
 
-/* A triangle in eye space, and the side that it shows: its corners run counter-clockwise there. */
+/* A triangle in eye space; its corners run counterclockwise seen from the side that it shows. */
 struct facet {
 	double corner[3][3];
 };
 
-/* A triangle with its shown side outwards. */
+/* A triangle with its visible side outwards. */
 static struct facet facet_of(const struct scene *s, const struct scene_instance *in, struct sides sides,
                              uint32_t primitive, int mirrors)
 {
@@ -50,8 +51,8 @@ static struct facet facet_of(const struct scene *s, const struct scene_instance 
 }
 
 /*
- * The solid angle that a triangle fills seen from a place, positive where its back is seen, as a share of all
- * directions (van Oosterom and Strackee 1983, equation 8).
+ * The solid angle of a triangle seen from a place, as a share of all directions, positive if its back is seen (van
+ * Oosterom and Strackee 1983, equation 8).
  */
 static double share_around(const struct facet *f, const double place[3])
 {
@@ -69,8 +70,8 @@ static double share_around(const struct facet *f, const double place[3])
 }
 
 /*
- * 1 where a place sees no side of an instance that is shown. share, viewers: receive how much of all directions it
- * fills from there, and from the viewer's place
+ * 1 if no visible side of an instance can be seen from a place. @param share, viewers  receive the share of all
+ * directions that it covers, seen from there and from the viewer
  */
 static int shows_back(const struct scene *s, const struct scene_instance *in, const double place[3], double *share,
                       double *viewers)
@@ -91,13 +92,13 @@ static int shows_back(const struct scene *s, const struct scene_instance *in, co
 	return 1;
 }
 
-/* Parts that follow each other in the order of drawing. */
+/* Parts that are drawn one after another. */
 struct body {
 	uint32_t first;
 	double around, around_viewer;
 };
 
-/* Mark a body that is complete with instance end - 1. @return how many instances */
+/* Mark a body that ends before instance `end`, if it is complete. @return the number of instances marked */
 static uint32_t mark(const struct scene *s, const struct blockers *b, const struct body *body, uint32_t end,
                      uint32_t *bits)
 {

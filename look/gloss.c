@@ -2,12 +2,12 @@
 
 #include <math.h>
 
-/* Between a specular colour's largest and smallest part, as a share of the largest: from here on it is coloured. */
+/* A specular colour is coloured if its components differ by at least this share of the largest. */
 #define COLORED 0.15f
 #define NO_METAL 0.1f
-/* What would mirror less is left alone: a step of 8 bits, seen in white. */
+/* Reflections below this are ignored: one step of 8 bits, if white is reflected. */
 #define LEAST 0.004f
-/* A ray a pixel makes noise of rougher ones. */
+/* One ray per pixel is too noisy for rougher surfaces. */
 #define ROUGHEST 0.2f
 
 static float most_of(const float c[4])
@@ -26,11 +26,11 @@ void gloss_set(const struct scene_material *m, float share, struct scene_surface
 {
 	const struct scene_face *f = &m->front;
 	const float roughness = sqrtf(2 / (f->shininess + 2));
-	/* The rougher, the more directions share it: what one ray brings counts less. */
+	/* A rougher surface spreads its reflection over more directions, so that one ray counts less. */
 	const float reflect = share * fminf(most_of(f->specular), 1) * (is_metal(f) ? 1 : NO_METAL) * (1 - roughness) *
 	                      (1 - roughness);
 
-	if (surface->reflect > 0 || surface->transmit > 0) /* the program says itself what it mirrors */
+	if (surface->reflect > 0 || surface->transmit > 0) /* the program draws its own reflections */
 		return;
 	if (!m->lighting || !(reflect > LEAST) || roughness > ROUGHEST)
 		return;

@@ -7,7 +7,7 @@
 #include "look/matched.h"
 #include "look/repaired.h"
 
-/* Move `more` behind `to`. libcyaml allocates as malloc does. Nothing is lost where memory is short. */
+/* Append `more` to `to`. libcyaml allocates with malloc. If memory is short, nothing is lost. */
 #define MOVE(to, n_to, more, n_more) move(&(to), &(n_to), (more), &(n_more), sizeof(*(to)))
 
 static int move(void *to, uint32_t *n_to, void *more, uint32_t *n_more, size_t bytes)
@@ -21,11 +21,11 @@ static int move(void *to, uint32_t *n_to, void *more, uint32_t *n_more, size_t b
 	if (*n_more)
 		memcpy(items + *n_to * bytes, more, *n_more * bytes);
 	*n_to += *n_more;
-	*n_more = 0; /* what is left is an array of nothing, to be freed */
+	*n_more = 0; /* what remains is an empty array, which is freed later */
 	return 0;
 }
 
-/* The later counts; the other one goes with the rules that are freed. */
+/* The later rule wins; the other one is freed with the rules that `more` came from. */
 #define LATER(member) \
 	do { \
 		const void *earlier = to->member; \
@@ -59,7 +59,7 @@ int rules_join(struct look **into, struct look **from)
 	n_unseen = to->rules->unseen_count;
 	more_draws = more->rules->surfaces_count;
 	more_unseen = more->rules->unseen_count;
-	/* Beside each list of rules is one of ours; it may have grown where the other has not. */
+	/* Our arrays run parallel to the lists of rules; one may have grown when another has not. */
 	err = memory_resize(&to->draws, (size_t)n_draws + more_draws + 1, sizeof(*to->draws));
 	if (!err)
 		err = memory_resize(&to->unseen, (size_t)n_unseen + more_unseen + 1, sizeof(*to->unseen));

@@ -1,13 +1,13 @@
-/* Rules of several files, one after the other. */
+/* Concatenates the rules of several files. */
 #pragma once
 
 #include "look/rules.h"
 
 /**
- * Add rules behind others: surfaces and lights apply in order. Of `sky`, `gloss`, `spare` and `replace` there is one:
- * the later counts.
- * @param to    NULL there: `more` is moved to it
- * @param more  taken over and NULL then; NULL there: nothing is added
- * @return 0 or ERR_SYSTEM (reported); rules_free both in any case
+ * Append rules to others; surfaces and lights apply in order. There is only one `sky`, `gloss`, `spare` and
+ * `replace`: the later one wins.
+ * @param to    if it points to NULL, `more` is moved to it
+ * @param more  consumed and set to NULL; if it points to NULL, nothing is added
+ * @return 0 or ERR_SYSTEM (reported); call rules_free for both in any case
  */
 int rules_join(struct look **to, struct look **more);

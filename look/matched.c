@@ -90,7 +90,7 @@ void matched_add(struct matched *m, const uint32_t *draws)
 	}
 }
 
-/* 1 where the rule says that a trick is replaced, and the file that tricks stay. */
+/* 1 if a rule replaces a trick, but the file keeps tricks. */
 static int is_off(const struct rules *rules, const struct surface_rule *r)
 {
 	return rules->replace && !*rules->replace && (r->left_out || r->solid || r->shadow_unit);

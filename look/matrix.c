@@ -29,7 +29,7 @@ static void exchange(double *m, int a, int b)
 	}
 }
 
-/* Gauss and Jordan on columns, with the largest pivot of each row. */
+/* Gauss-Jordan elimination on columns, with the largest pivot of each row. */
 int matrix_invert(double out[16], const double m[16])
 {
 	double a[16], largest = 0;
@@ -109,7 +109,7 @@ double matrix_scale(const double m[16])
 	return longest;
 }
 
-/* Jacobi's rotations make a symmetric matrix diagonal; the columns of v are its vectors. */
+/* Jacobi rotations make a symmetric matrix diagonal; the columns of v are its eigenvectors. */
 static void jacobi(double a[16], double v[16])
 {
 	memcpy(v, matrix_identity, 16 * sizeof(*v));

@@ -13,7 +13,7 @@ enum modelview_kind modelview_named(const char *name)
 	return kind;
 }
 
-/* The volume that three columns span, over what they could. */
+/* The volume spanned by three columns, relative to orthogonal columns of the same lengths. */
 static double fullness3(const float *m)
 {
 	double volume = (double)m[0] * ((double)m[5] * m[10] - (double)m[6] * m[9]) -
@@ -26,7 +26,8 @@ static double fullness3(const float *m)
 	return most > 0 ? volume / most : 0;
 }
 
-/* The same of four columns, w in units of the distance to the origin, so that a far object is not a flat one. */
+/* The same for four columns, with w in units of the distance to the origin, so that distant things do not count as
+ * flat. */
 static double fullness4(const float *m)
 {
 	double a[16], far = sqrt((double)m[12] * m[12] + (double)m[13] * m[13] + (double)m[14] * m[14]), volume = 1, most = 1;
@@ -37,7 +38,7 @@ static double fullness4(const float *m)
 	for (int c = 0; c < 4; c++)
 		most *= sqrt(a[4 * c] * a[4 * c] + a[4 * c + 1] * a[4 * c + 1] + a[4 * c + 2] * a[4 * c + 2] +
 		             a[4 * c + 3] * a[4 * c + 3]);
-	for (int c = 0; c < 4; c++) { /* Gram and Schmidt: the lengths that remain */
+	for (int c = 0; c < 4; c++) { /* Gram-Schmidt: the lengths that remain */
 		double length = sqrt(a[4 * c] * a[4 * c] + a[4 * c + 1] * a[4 * c + 1] + a[4 * c + 2] * a[4 * c + 2] +
 		                     a[4 * c + 3] * a[4 * c + 3]);
 

@@ -1,14 +1,14 @@
-/* What kind of modelview matrix something was drawn with. */
+/* Kinds of modelview matrices. */
 #pragma once
 
 enum modelview_kind {
 	MODELVIEW_PLAIN,
-	MODELVIEW_MIRRORED, /* turns left hands into right ones */
-	MODELVIEW_SINGULAR, /* flattens: what is drawn has no thickness */
+	MODELVIEW_MIRRORED, /* swaps left and right hands */
+	MODELVIEW_SINGULAR, /* flattens things to a plane */
 	N_MODELVIEW_KINDS
 };
 
-/** The kind of a name as rules have it; N_MODELVIEW_KINDS: there is none. */
+/** The kind with a name used in rules; N_MODELVIEW_KINDS: there is none. */
 enum modelview_kind modelview_named(const char *name);
 
 enum modelview_kind modelview_kind_of(const float modelview[16]);

@@ -6,7 +6,7 @@
 
 #include "base/err.h"
 
-/* Vertices may hold other attributes, and so be others: the corners count. */
+/* Only positions count: the other attributes of vertices may differ between draws. */
 static uint64_t hash_points(const struct scene_mesh *mesh)
 {
 	XXH3_state_t state;

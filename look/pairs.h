@@ -1,5 +1,4 @@
-/* Draws of one frame that show the same points: a mesh drawn once upright and once flattened, or once before and once
- * behind a mirror. */
+/* Draws of the same points in one frame: a mesh drawn both upright and flattened, or on both sides of a mirror. */
 #pragma once
 
 #include "base/table.h"
@@ -9,7 +8,7 @@
 /* All zero: empty. */
 struct pairs {
 	struct table first; /* points and kind of modelview -> instance + 1 */
-	uint32_t *next;     /* [instances]: the next one of the same, or SCENE_NONE */
+	uint32_t *next;     /* [instances]: the next instance with the same key, or SCENE_NONE */
 	uint64_t *points;   /* [meshes]: hash of the points of its triangles */
 };
 
@@ -17,6 +16,6 @@ struct pairs {
 int pairs_make(struct pairs *p, const struct scene *scene);
 void pairs_free(struct pairs *p);
 
-/** The first draw of an instance's points under a kind of modelview; pairs.next has the others. SCENE_NONE: there is
- * none */
+/** The first draw of an instance's points under a kind of modelview; pairs.next links to the others. SCENE_NONE: there
+ * is none */
 uint32_t pairs_find(const struct pairs *p, const struct scene *scene, uint32_t instance, enum modelview_kind kind);

@@ -1,8 +1,8 @@
-/* Draws in a plane. */
+/* Draws that lie in a plane. */
 #pragma once
 
 #include "scene/scene.h"
 
-/** 1 where a draw lies in a plane of eye space (a, b, c, d; the normal a unit vector), but for a tenth of its points:
- * an edge, perhaps. */
+/** 1 if nine tenths of a draw's points lie in a plane of eye space (a, b, c, d; the normal is a unit vector). The rest
+ * may be an edge. */
 int plane_holds(const struct scene *scene, const struct scene_instance *instance, const float plane[4]);

@@ -12,16 +12,16 @@
 #include "look/rules.h"
 #include "look/solid.h"
 
-/* Of all meshes in the store: those of programs that send new ones in every frame would fill any memory. */
+/* Limit for all meshes in the store: programs that send new meshes in every frame would fill any memory. */
 #define MOST_BYTES ((size_t)1 << 30)
 
 enum { MOST_WARNINGS = 4 };
 
 struct entry {
-	uint64_t hash[2]; /* of what it was */
+	uint64_t hash[2]; /* hash of the original */
 	struct repair_wants wants;
 	struct repair_found found;
-	struct scene_mesh *mesh; /* NULL: as it was */
+	struct scene_mesh *mesh; /* NULL: nothing was repaired */
 };
 
 struct repaired {
@@ -71,14 +71,14 @@ int repaired_wants(const struct repair_rule *rule, const struct scene *scene, co
 	       m->polygon_mode_back == GL_FILL && !(m->surface.hidden & SCENE_LEFT_OUT);
 }
 
-/* Of the first few meshes. */
+/* Warn about the first few meshes. */
 static void warn(struct repaired *s, const struct scene_mesh *mesh, const struct repair_found *found)
 {
 	const float *at = found->leak_at;
 
 	s->n_leaking += found->leaks > 0;
 	if (found->leaks && s->n_leaking == MOST_WARNINGS + 1)
-		err_warn(NULL, "other meshes leak light, too; attributes relume:rule.N of the frames tell of them");
+		err_warn(NULL, "more meshes leak light; attributes relume:rule.N of the frames list them");
 	if (found->leaks && s->n_leaking <= MOST_WARNINGS)
 		err_warn(NULL,
 		         "mesh %016llx%016llx still leaks light at %u edges after its repair, the longest about %g %g "
@@ -128,7 +128,7 @@ int repaired_find(struct repaired *s, const struct scene_mesh *of, const struct 
 		entry = err ? NULL : &s->entries[s->n - 1];
 	} else if (!entry && !s->is_full) {
 		s->is_full = 1;
-		err_warn(NULL, "more meshes than 1 GiB holds are to be repaired; further ones stay as they are");
+		err_warn(NULL, "repaired meshes exceed 1 GiB; further meshes are not repaired");
 	}
 	if (entry) {
 		*mesh = entry->mesh;

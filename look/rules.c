@@ -32,7 +32,7 @@ static int check_hash(const char *path, const char *list, uint32_t rule, const c
 {
 	if (!value || (strspn(value, "0123456789abcdef") == strlen(value) && strlen(value) <= 32))
 		return 0;
-	return err_report(ERR_INPUT, path, "%s, rule %u: %s '%s' is not the beginning of a hash (0-9, a-f)", list,
+	return err_report(ERR_INPUT, path, "%s, rule %u: %s '%s' is not the start of a hash (0-9, a-f)", list,
 	                  rule + 1, key, value);
 }
 
@@ -44,7 +44,7 @@ static int check_surface(const char *path, const struct surface_rule *r, uint32_
 	if (!err)
 		err = check_number(path, list, i, "transmit", r->transmit, 0, 1);
 	if (!err && r->reflect && r->transmit && *r->reflect + *r->transmit > 1)
-		err = err_report(ERR_INPUT, path, "surfaces, rule %u: reflect and transmit are more than 1 together", i + 1);
+		err = err_report(ERR_INPUT, path, "surfaces, rule %u: reflect and transmit add up to more than 1", i + 1);
 	if (!err)
 		err = check_number(path, list, i, "ior", r->ior, 1, 10);
 	if (!err)
@@ -59,12 +59,12 @@ static int check_surface(const char *path, const struct surface_rule *r, uint32_
 			err = check_number(path, list, i, "emission", r->emission ? r->emission + c : NULL, 0, 1e30f);
 	}
 	if (!err && r->match && r->match->modelview && modelview_named(r->match->modelview) == N_MODELVIEW_KINDS)
-		err = err_report(ERR_INPUT, path, "surfaces, rule %u: modelview is plain, mirrored or singular, not '%s'", i + 1,
+		err = err_report(ERR_INPUT, path, "surfaces, rule %u: modelview must be plain, mirrored or singular, not '%s'", i + 1,
 		                 r->match->modelview);
 	if (!err && r->passes && !spare_named(r->passes, &(uint32_t){ 0 }))
 		err = err_report(
 			ERR_INPUT, path,
-			"surfaces, rule %u: passes is none, from behind, suns, suns and from behind, or all, not '%s'",
+			"surfaces, rule %u: passes must be none, from behind, suns, suns and from behind, or all, not '%s'",
 			i + 1, r->passes);
 	if (!err && r->match)
 		err = check_hash(path, list, i, "mesh", r->match->mesh);
@@ -76,7 +76,7 @@ static int check_surface(const char *path, const struct surface_rule *r, uint32_
 static int read_draws(const char *path, const char *list, uint32_t rule, const char *text, struct frame_list *out)
 {
 	if (strspn(text, "0123456789-,") != strlen(text))
-		return err_report(ERR_INPUT, path, "%s, rule %u: draws '%.80s' is no list of numbers", list, rule + 1, text);
+		return err_report(ERR_INPUT, path, "%s, rule %u: draws '%.80s' is not a list of numbers", list, rule + 1, text);
 	return frame_list_parse(text, out) ? ERR_INPUT : 0;
 }
 
@@ -84,7 +84,7 @@ static int check_space(const char *path, const char *what, const char *space)
 {
 	if (!space || strcmp(space, "world") == 0 || strcmp(space, "eye") == 0)
 		return 0;
-	return err_report(ERR_INPUT, path, "%s: space is eye or world, not '%s'", what, space);
+	return err_report(ERR_INPUT, path, "%s: space must be eye or world, not '%s'", what, space);
 }
 
 static int check_light(const char *path, const struct light_rule *r, uint32_t i)
@@ -93,25 +93,25 @@ static int check_light(const char *path, const struct light_rule *r, uint32_t i)
 	int err = check_number(path, "lights", i, "radius", r->radius, 0, 1e30f);
 
 	if (!err && r->light && *r->light >= SCENE_MAX_LIGHTS)
-		err = err_report(ERR_INPUT, path, "lights, rule %u: there are lights 0 to %d", i + 1, SCENE_MAX_LIGHTS - 1);
+		err = err_report(ERR_INPUT, path, "lights, rule %u: light must be between 0 and %d", i + 1, SCENE_MAX_LIGHTS - 1);
 	if (!err && !r->light && !r->position)
-		err = err_report(ERR_INPUT, path, "lights, rule %u: a light that is added needs a position", i + 1);
+		err = err_report(ERR_INPUT, path, "lights, rule %u: a new light needs a position", i + 1);
 	if (!err && r->object && !r->position)
-		err = err_report(ERR_INPUT, path, "lights, rule %u: object says where a position counts, and there is none", i + 1);
+		err = err_report(ERR_INPUT, path, "lights, rule %u: object needs a position", i + 1);
 	if (!err && r->spot)
 		err = check_number(path, "lights", i, "cutoff", r->spot->cutoff, 0, 90);
 	snprintf(what, sizeof(what), "lights, rule %u", i + 1);
 	if (!err)
 		err = check_space(path, what, r->space);
 	if (!err && r->on && strcmp(r->on, "unlit") != 0 && strcmp(r->on, "all") != 0)
-		err = err_report(ERR_INPUT, path, "lights, rule %u: on is unlit or all, not '%s'", i + 1, r->on);
+		err = err_report(ERR_INPUT, path, "lights, rule %u: on must be unlit or all, not '%s'", i + 1, r->on);
 	return err ? err : check_hash(path, "lights", i, "object", r->object);
 }
 
 static int check_sky(const char *path, const struct sky_rule *r)
 {
 	int err = r->reach ? check_number(path, "sky", 0, "reach", r->reach, 1e-30f, 1e30f) :
-	                     err_report(ERR_INPUT, path, "sky: it needs a reach");
+	                     err_report(ERR_INPUT, path, "sky: reach is missing");
 
 	for (int c = 0; c < 3 && !err; c++) {
 		err = check_number(path, "sky", 0, "light", r->light ? r->light + c : NULL, 0, 1e30f);
@@ -119,7 +119,7 @@ static int check_sky(const char *path, const struct sky_rule *r)
 			err = check_number(path, "sky", 0, "ground", r->ground ? r->ground + c : NULL, 0, 1e30f);
 	}
 	if (!err && r->up && r->up[0] == 0 && r->up[1] == 0 && r->up[2] == 0)
-		err = err_report(ERR_INPUT, path, "sky: up is no direction");
+		err = err_report(ERR_INPUT, path, "sky: up must not be 0");
 	if (!err)
 		err = check_number(path, "sky", 0, "lit", r->lit, 0, 1);
 	return err ? err : check_space(path, "sky", r->space);
@@ -128,11 +128,11 @@ static int check_sky(const char *path, const struct sky_rule *r)
 static int check_anchor(const char *path, const struct anchor *a, uint32_t i)
 {
 	if (!a->mesh || !a->at)
-		return err_report(ERR_INPUT, path, "world, entry %u: it needs a mesh and its place (at)", i + 1);
+		return err_report(ERR_INPUT, path, "world, entry %u: mesh or at is missing", i + 1);
 	return check_hash(path, "world", i, "mesh", a->mesh);
 }
 
-/* What libcyaml has read, whole and in range. */
+/* Check ranges and required keys of what libcyaml has read, and parse the lists of draws. */
 static int check_all(const char *path, struct look *look)
 {
 	const struct rules *rules = look->rules;
@@ -169,7 +169,7 @@ static int check_all(const char *path, struct look *look)
 	return err;
 }
 
-/* err: of reading the rules, which then are NULL. */
+/* @param err  the result of reading the rules, which are NULL if it failed */
 static int finish(const char *path, int err, void *rules, struct look **out)
 {
 	struct look *look = err ? NULL : calloc(1, sizeof(*look));

@@ -22,7 +22,7 @@ static const cyaml_schema_field_t match_fields[] = {
 	CYAML_FIELD_END
 };
 
-/* `confidence` and the like; libcyaml finds them inside the rule. */
+/* `confidence` and the like; libcyaml sees them as keys of the rule itself. */
 #define REASON(type) \
 	CYAML_FIELD_STRING_PTR("role", OPTIONAL_POINTER, type, reason.role, 1, 64), \
 	CYAML_FIELD_STRING_PTR("why", OPTIONAL_POINTER, type, reason.why, 1, 1000), \

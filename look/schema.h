@@ -1,4 +1,4 @@
-/* The keys of rule files, as libcyaml reads them into struct rules (look/rules.h). All but lists are pointers. */
+/* The keys of rule files: the libcyaml schema of struct rules (look/rules.h). All members but lists are pointers. */
 #pragma once
 
 #include "base/config.h"

@@ -14,10 +14,10 @@
 #include "look/drawn.h"
 #include "look/modelview.h"
 
-/* The cross products of a closed body's triangles add up to this share of their lengths at most: corners that were
-   computed twice differ by rounding. */
+/* The sum of a closed body's cross products is at most this share of their lengths; corners computed twice differ by
+ * rounding. */
 #define CLOSED 1e-6
-/* Normals across a triangle, to a thousandth, do not tell its sides apart: as in kernels/frame/transparency.h. */
+/* Normals this nearly parallel to a triangle do not determine its sides: as in kernels/frame/transparency.h. */
 #define ACROSS 1e-3
 
 static enum sides_shown shown_of(const struct scene_material *m)
@@ -39,7 +39,7 @@ struct sides sides_of(const struct scene *scene, const struct scene_instance *in
 	return sides;
 }
 
-/* A triangle's cross product on the side that its winding says is shown. */
+/* A triangle's cross product on the side that is visible by its winding. */
 static void wound_normal(const struct scene_mesh *mesh, struct sides sides, uint32_t primitive, double out[3])
 {
 	const float *corner[3];
@@ -55,8 +55,9 @@ static void wound_normal(const struct scene_mesh *mesh, struct sides sides, uint
 }
 
 /*
- * Turn a triangle's cross product to the side that its normals tell, where they count; to 0 where they tell none.
- * @return 1, 0 or -1: by what it was multiplied
+ * Turn a triangle's cross product to the side that its normals point to, if they count; set it to 0 if they do not
+ * determine a side.
+ * @return the factor: 1, 0 or -1
  */
 static int turn_to_normals(const struct scene *scene, const struct scene_instance *in, struct sides sides,
                             uint32_t primitive, double normal[3])
@@ -90,7 +91,7 @@ void sides_towards(const struct scene *scene, const struct scene_instance *in, s
 
 int sides_back_outside(const struct scene *scene, const struct scene_instance *in)
 {
-	const struct sides sides = sides_of(scene, in); /* lit ones: by how fronts run */
+	const struct sides sides = sides_of(scene, in); /* lit: by the winding of fronts */
 	double along = 0;
 
 	if (sides.shown != SIDES_LIT)
@@ -106,19 +107,19 @@ int sides_back_outside(const struct scene *scene, const struct scene_instance *i
 	return along < 0;
 }
 
-/* An instance's triangles taken together, in object space. */
+/* The triangles of an instance as a whole, in object space. */
 struct sheet {
-	double sum[3], length; /* of cross products on the shown side, and of their lengths */
-	double volume;         /* six times what they enclose; below 0 where that is what they show */
+	double sum[3], length; /* sums of cross products on the visible side, and of their lengths */
+	double volume;         /* six times the enclosed volume; below 0 if the inside is what is visible */
 	float low[3], high[3];
-	uint32_t behind; /* bits: lamps that some triangle turns its other side to */
-	uint32_t as_wound, against, untold; /* triangles whose shown side is as their winding has it, the other one, or
-	                                       no one */
+	uint32_t behind; /* bits of the lamps to which some triangle turns its hidden side */
+	uint32_t as_wound, against, untold; /* triangles whose visible side is the one of their winding, the opposite
+	                                       one, or unknown */
 };
 
 enum { MOST_LAMPS = 32 };
 
-/* Lamps of an instance's eye space, in its object space; w is 0 or 1. */
+/* The lamps of an instance's eye space in its object space; w is 0 or 1. */
 struct lamps {
 	double place[MOST_LAMPS][4];
 	uint32_t n;
@@ -176,13 +177,13 @@ static int is_inside(const struct sheet *sheet, const double lamp[4])
 	return inside;
 }
 
-/* A body that shows its outside alone: what goes through it meets a side that blocks, where all of that does. */
+/* 1 for a body that shows its outside alone. A ray through it meets a side that blocks, if all of that blocks. */
 static int is_closed(const struct sheet *sheet)
 {
 	return sqrt(vec3_dot(sheet->sum, sheet->sum)) <= CLOSED * sheet->length && sheet->volume > 0;
 }
 
-/* How corners of the shown side run, where that is the same for all triangles: a bit of the two. */
+/* How corners run on the visible side, if all triangles agree: a bit for either winding. */
 static uint32_t winding_of(const struct sheet *sheet, struct sides sides)
 {
 	if (sheet->untold || (sheet->as_wound && sheet->against))
@@ -190,7 +191,8 @@ static uint32_t winding_of(const struct sheet *sheet, struct sides sides)
 	return (sides.clockwise != 0) != (sheet->against != 0) ? SCENE_SHOWN_CLOCKWISE : SCENE_SHOWN_COUNTER;
 }
 
-/* lamps: NULL: anywhere. @return bits as sides_find; 0: rays to lamps need not be asked */
+/* @param lamps  NULL: light may come from anywhere
+ * @return bits as in sides_find; 0: rays to lamps need not be tested */
 static uint32_t has_lamp_behind(const struct scene *s, const struct scene_instance *in, const struct lamps *lamps)
 {
 	static const struct lamps none = { .n = 0 };
@@ -209,7 +211,7 @@ static uint32_t has_lamp_behind(const struct scene *s, const struct scene_instan
 	return is_asked ? SCENE_ONE_SIDED | winding_of(&sheet, sides) : 0;
 }
 
-/* Rays tell fronts by how triangles run in eye space, which is wrong where a projection mirrors it. */
+/* 1 if the winding of triangles in eye space determines the front for rays; a mirroring projection makes it wrong. */
 static int is_told_apart(const struct scene *s, const struct scene_instance *in)
 {
 	const enum sides_shown shown = shown_of(&s->materials[in->material]);
@@ -218,7 +220,7 @@ static int is_told_apart(const struct scene *s, const struct scene_instance *in)
 	       (shown == SIDES_LIT || (shown != SIDES_BOTH && !drawn_mirrored(&s->views[in->view])));
 }
 
-/* Whether rays to some lamp have to be asked which side of an instance they meet: bits as sides_find. */
+/* Whether rays to some lamp must be tested for the side of an instance that they meet: bits as in sides_find. */
 static uint32_t asked_of(const struct scene *s, const struct scene_instance *in, const struct sides_lamp *lamps,
                          uint32_t n_lamps)
 {
@@ -239,7 +241,7 @@ static uint32_t asked_of(const struct scene *s, const struct scene_instance *in,
 	return near.n ? has_lamp_behind(s, in, &near) : 0;
 }
 
-/* The place of a mesh that is culled. */
+/* Identifies the position of a culled mesh. */
 static uint64_t key_of(const struct scene *s, const struct scene_instance *in)
 {
 	const uint64_t place = XXH3_64bits(in->modelview, sizeof(in->modelview)) + s->views[in->view].space;
@@ -248,8 +250,8 @@ static uint64_t key_of(const struct scene *s, const struct scene_instance *in)
 }
 
 /*
- * Which sides are shown of what stands at each place: bodies that are seen through are drawn twice, backs first.
- * both: keys to bits of 1 << enum sides_shown
+ * The visible sides of the meshes at each position: transparent bodies are often drawn twice, backs first.
+ * @param both  keys to bits of 1 << enum sides_shown
  */
 static int find_both(const struct scene *s, struct table *both)
 {

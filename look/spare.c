@@ -17,19 +17,19 @@
 #include "scene/box.h"
 #include "scene/draw_list.h"
 
-/* A light is shut out where it reaches less than this share of the area that it lights. A sun through a window reaches
+/* A light is shut out if it reaches less than this share of the area that it lights. The sun through a window reaches
  * a few hundredths. */
 #define REACHED_LEAST 0.1f
-/* Surfaces belong to an enclosure where they stop light from this share of what is not reached, */
+/* A surface belongs to an enclosure if it blocks light to this share of the area that is not reached. */
 #define STOPS_LEAST 0.02f
-/* and are spared where that lets light reach this share. */
+/* An enclosure is spared if light then reaches this share. */
 #define REACHED_AFTER 0.3f
-/* What lies within this times the lit world's radius is in it. */
+/* Things within this factor of the lit world's radius belong to it. */
 #define WORLD_MARGIN 1.1f
 
 enum { RECEIVERS = 256, FIRST_RECEIVERS = 24, FEWEST_RECEIVERS = 4, PER_INSTANCE = 8 };
 
-/* A place that OpenGL lights, in eye space, and how large the surface is that it stands for. */
+/* A place that OpenGL lights, in eye space, and the area that it represents. */
 struct receiver {
 	float at[3], normal[3], area;
 	uint32_t instance;
@@ -41,7 +41,7 @@ struct sparing {
 	struct blockers *blockers;
 	struct receiver receivers[RECEIVERS];
 	uint32_t n_receivers;
-	int more_lamps; /* 1: than out->lamps has room for */
+	int more_lamps; /* 1: there are more lamps than out->lamps has room for */
 };
 
 /* --- What is lit ------------------------------------------------------------------------------------------------- */
@@ -94,8 +94,8 @@ static float area_of(const float a[4], const float b[4], const float c[4])
 }
 
 /*
- * 1 where a surface turns its lit side to the viewer, in front of something or not; of two lit sides the one counts
- * that does. The outer walls of a hall say nothing about the light within.
+ * 1 if a surface turns a lit side to the viewer, hidden or not. If both sides are lit, the one towards the viewer
+ * counts. The outer walls of a hall say nothing about the light inside.
  */
 static int shows_lit_side(const struct scene *s, struct receiver *r)
 {
@@ -113,7 +113,7 @@ static int shows_lit_side(const struct scene *s, struct receiver *r)
 	return towards > 0;
 }
 
-/* The middle of a triangle, and its normal: the mean of its corners', turned by the inverse transpose (sec. 2.11.3). */
+/* The middle of a triangle, and the mean of its corners' normals under the inverse transpose (sec. 2.11.3). */
 static int receiver_of(const struct scene *s, uint32_t instance, uint32_t primitive, struct receiver *out)
 {
 	const struct scene_instance *in = &s->instances[instance];
@@ -142,8 +142,8 @@ static int receiver_of(const struct scene *s, uint32_t instance, uint32_t primit
 	return length > 0 && isfinite(length) && shows_lit_side(s, out);
 }
 
-/* Places on lit surfaces, so many of each instance, evenly spread over its triangles; of all instances, or evenly of
- * some. */
+/* Sample places on lit surfaces: the same number for each instance, evenly spread over its triangles. If there are
+ * too many instances, they are sampled evenly. */
 static void find_receivers(struct sparing *a)
 {
 	const struct scene *s = a->scene;
@@ -188,7 +188,7 @@ static int ray_to(const struct sparing *a, const struct receiver *r, const struc
 	return cosine > 0.05f * sqrtf(length) && a->scene->views[a->scene->instances[r->instance].view].space == lamp->space;
 }
 
-/* 1 where a hit still stops light under the bits found so far. */
+/* 1 if a hit blocks light under the bits found so far. */
 static int stops(const struct sparing *a, const struct sides_lamp *lamp, const struct blocker_hit *hit,
                  const uint32_t *bits)
 {
@@ -198,15 +198,16 @@ static int stops(const struct sparing *a, const struct sides_lamp *lamp, const s
 	         (b & SCENE_STOPS_NO_SUN && lamp->position[3] == 0) || !blockers_has(a->blockers, hit->instance));
 }
 
-/* How a lamp's rays fare: how many there are, and the areas that they stand for. */
+/* The outcome of a lamp's rays: their number, and the areas that they represent. */
 struct fare {
 	uint32_t rays;
 	float area, reached;
 };
 
 /*
- * Send a lamp's rays, one in `step`. at_last: [n_instances], NULL where not asked for: the area for which each instance
- * is the last one on the way that stops them.
+ * Send every `step`-th of a lamp's rays.
+ * @param at_last  [n_instances] or NULL: receives, for each instance, the area for which it is the last blocker on
+ * the way
  */
 static struct fare follow(const struct sparing *a, const struct sides_lamp *lamp, const uint32_t *bits, uint32_t step,
                           float *at_last)
@@ -240,7 +241,7 @@ static int is_shut_out(const struct fare *fare)
 	return fare->rays >= FEWEST_RECEIVERS && fare->reached < REACHED_LEAST * fare->area;
 }
 
-/* Give instances that stop enough rays a bit. @return how many */
+/* Set a bit for instances that stop enough rays. @return how many */
 static uint32_t mark(const struct sparing *a, const float *stopped, const struct fare *fare, uint32_t bit,
                      uint32_t *bits)
 {
@@ -254,7 +255,7 @@ static uint32_t mark(const struct sparing *a, const float *stopped, const struct
 	return n;
 }
 
-/* Let a lamp in that an enclosure shuts out. stopped, bits: [n_instances], room to try in */
+/* Let a lamp's light through the enclosure that shuts it out. @param stopped, bits  [n_instances], scratch space */
 static void let_in(struct sparing *a, const struct sides_lamp *lamp, float *stopped, uint32_t *bits)
 {
 	const uint32_t n = a->scene->n_instances;
@@ -273,7 +274,7 @@ static void let_in(struct sparing *a, const struct sides_lamp *lamp, float *stop
 	}
 	fare = follow(a, lamp, bits, 1, NULL);
 	if (fare.reached < REACHED_AFTER * fare.area)
-		return; /* it is not they that shut the light out */
+		return; /* these surfaces are not what shuts the light out */
 	memcpy(a->out->bits, bits, n * sizeof(*bits));
 	a->out->enclosures += marked;
 }
@@ -298,7 +299,7 @@ static int find_enclosures(struct sparing *a)
 
 /* --- Backdrops --------------------------------------------------------------------------------------------------- */
 
-/* A ball around something, in eye space: it does not depend on where the camera looks. */
+/* A ball around something in eye space, which does not depend on the view direction. */
 struct ball {
 	float middle[3], radius;
 };
@@ -332,7 +333,7 @@ static float distance(const struct ball *a, const struct ball *b)
 	return sqrtf(sum);
 }
 
-/* A ball around all that is lit in an eye space: about the mean of what is there, the larger counting more. */
+/* A ball around everything that is lit in an eye space. Its centre is the mean of the contents, weighted by size. */
 static struct ball lit_world(const struct scene *s, uint32_t space)
 {
 	struct ball world = { .radius = 0 };
@@ -390,7 +391,7 @@ static int has_sun(const struct sparing *a)
 	return 0;
 }
 
-/* Bits of what shuts light out. */
+/* Find the bits of surfaces that shut out light. */
 static int find_blocking(struct sparing *a)
 {
 	int err = blockers_create(a->scene, &a->blockers);

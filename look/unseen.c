@@ -15,22 +15,22 @@
 #include "look/solid.h"
 #include "look/world.h"
 
-/* Places of a mesh in view that rays go to, and how many of them prove that it is gone. */
+/* PLACES of a mesh in view are tested by rays; PROOF of them prove that the mesh is gone. */
 enum { PLACES = 256, PROOF = 2 };
-/* A place lies in view if it is so far within the window's borders. */
+/* A place is in view if it is within this share of the window. */
 #define WITHIN 0.98f
-/* The same mesh stands there, by this share of how far off it is. */
+/* Tolerance for the same mesh at the same place, as a share of its distance. */
 #define SAME 2e-3f
 
-/* A scene that grows by what others show. */
+/* A scene that is being extended. */
 struct adding {
 	const struct look *look;
 	const struct scene *scene;
 	struct scene *out;
 	size_t room_instances, room_materials, room_units, room_lights, room_currents, room_meshes, room_textures;
 	struct blockers *blockers; /* of the scene */
-	uint32_t main_view;        /* through which the viewer looks at the world */
-	float (*places)[3];        /* in view, where rays go */
+	uint32_t main_view;        /* the view that shows the viewer's world */
+	float (*places)[3];        /* places in view that rays are sent to */
 	size_t room_places;
 };
 
@@ -57,7 +57,7 @@ static int is_drawn(const struct scene *s, const struct scene_mesh *mesh, const 
 	return 0;
 }
 
-/* What stands in eye space by itself: its material can be moved with the viewer. */
+/* 1 if an instance depends on nothing but its place in eye space, so that its material can be moved with the viewer. */
 static int can_move(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_material *m = &s->materials[in->material];
@@ -71,7 +71,7 @@ static int can_move(const struct scene *s, const struct scene_instance *in)
 	return 1;
 }
 
-/* Corners' mean, and twice the area as a normal. */
+/* The mean of the corners, and a normal of twice the area. */
 static void find_middle(const struct scene_mesh *mesh, const float modelview[16], uint32_t primitive, float middle[3],
                         float normal[3])
 {
@@ -102,7 +102,7 @@ static int is_in_view(const struct scene_view *view, const float at[3])
 	       fabsf(clip[2]) < clip[3];
 }
 
-/* 1 where a primitive lies in view and turns the side to the viewer that it showed when it was drawn. */
+/* 1 if a primitive is in view and turns the same side to the viewer as when it was drawn. */
 static int is_to_be_seen(const struct scene_view *view, const struct scene_mesh *mesh, const float then[16],
                          const float now[16], uint32_t primitive, float middle[3])
 {
@@ -114,8 +114,9 @@ static int is_to_be_seen(const struct scene_view *view, const struct scene_mesh 
 }
 
 /*
- * 1 where a mesh is gone, or is another one now: places of it would be seen, and nothing that the frame drew hides
- * them. A ground that is cut otherwise in each frame lies half above and half below itself. then, now: its modelviews
+ * 1 if a mesh is gone or has been replaced: some of it would be visible, and nothing in the frame hides it. A ground
+ * that is triangulated differently in each frame lies half above and half below itself. @param then, now  its
+ * modelviews
  * @return ERR_SYSTEM: out of memory
  */
 static int is_gone(struct adding *a, const struct scene_mesh *mesh, const float then[16], const float now[16])
@@ -151,7 +152,7 @@ static int add_texture(struct adding *a, const struct scene_texture *texture, ui
 	return APPEND(a, textures, texture);
 }
 
-/* A light as it is now: the frame's own of this number, or where it stood, moved with the world. */
+/* A light as it is now: the frame's own light with this number, or the old one, moved with the world. */
 static int add_light(struct adding *a, const struct scene_light *light, const float now_from_then[16])
 {
 	struct scene_light moved = *light;
@@ -192,7 +193,7 @@ static int add_material(struct adding *a, const struct scene *from, const struct
 	return err ? err : APPEND(a, materials, m);
 }
 
-/* One draw of another frame. hidden: the view through which nobody looks */
+/* Add a draw of another frame. @param hidden  the view that covers no pixel */
 static int add_instance(struct adding *a, const struct scene *from, const struct scene_instance *in,
                         const float now_from_then[16], uint32_t hidden)
 {
@@ -226,7 +227,7 @@ static int add_instance(struct adding *a, const struct scene *from, const struct
 	 ((a)->scene->n_##items ? (void)memcpy((a)->out->items, (a)->scene->items, \
 	 (a)->scene->n_##items * sizeof(*(a)->out->items)) : (void)0, 0))
 
-/* The scene's arrays as the copy's own, and a view of the main one's space that covers no pixel. */
+/* Copy the scene's arrays, and add a view of the main view's space that covers no pixel. */
 static int copy(struct adding *a)
 {
 	struct scene *out = a->out;
@@ -251,7 +252,7 @@ static int copy(struct adding *a)
 	return 0;
 }
 
-/* The view that shows most of what is solid in perspective. @return 0: there is none */
+/* Find the view that shows the most solid surfaces in perspective. @return 0: there is none */
 static int find_main_view(struct adding *a)
 {
 	const struct scene *s = a->scene;

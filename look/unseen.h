@@ -1,6 +1,6 @@
 /*
- * What stands still and the frame leaves out, as its program knew that nobody would see it: mirrors and shadows do
- * (`unseen` in look/rules.h). It comes from the scenes of other frames.
+ * Static things that a frame omits because the viewer cannot see them, but that mirrors and shadows need (`unseen` in
+ * look/rules.h). They come from the scenes of other frames.
  */
 #pragma once
 
@@ -9,11 +9,11 @@
 struct look;
 
 /**
- * The scene with what it leaves out, for all rays but the camera's. A mesh stays out where the frame itself proves that
- * it is gone, or is another one now: some of it would lie in view with nothing before it.
- * @param look  its rules' scenes are there (look.unseen)
- * @param out   a copy that borrows what has not changed; unseen_release before the scene is. Where nothing is added, or
- *              nobody knows where the frame's world is, instances is NULL
+ * Add what a scene omits, for all rays but the camera's. A mesh is not added if the frame proves that it is gone or
+ * has been replaced: some of it would be in view with nothing in front.
+ * @param look  its rules' scenes are loaded (look.unseen)
+ * @param out   a copy that borrows what has not changed; call unseen_release before the scene is released. If nothing
+ * is added, or the frame's place in the world is unknown, its instances are NULL
  * @return 0 or ERR_SYSTEM (reported)
  */
 int unseen_add(const struct look *look, const struct scene *scene, struct scene *out);

@@ -18,7 +18,7 @@ int world_hash_begins(const uint64_t hash[2], const char *text)
 	return strncmp(whole, text, strlen(text)) == 0;
 }
 
-/* 1 where two matrices put things at the same place, but for the error of products of floats. */
+/* 1 if two matrices place things alike, up to the rounding of float products. */
 static int agree(const float a[16], const float b[16])
 {
 	float far = 1;

@@ -37,11 +37,11 @@ START_TEST(test_wrong_files)
 		{ "lights:\n- light: 0\n  position: [1, 2, 3]\n", "line 3" },
 		{ "lamps:\n- light: 0\n", "line 1" },
 		{ "surfaces:\n- reflect: 1.5\n", "reflect is 1.5" },
-		{ "surfaces:\n- reflect: 0.6\n  transmit: 0.6\n", "more than 1 together" },
+		{ "surfaces:\n- reflect: 0.6\n  transmit: 0.6\n", "add up to more than 1" },
 		{ "surfaces:\n- match: { texture: wood }\n  reflect: 0.6\n", "wood" },
 		{ "surfaces:\n- match: { draws: a-b }\n  reflect: 0.6\n", "a-b" },
 		{ "lights:\n- radius: 0.2\n", "needs a position" },
-		{ "lights:\n- light: 9\n  off: yes\n", "lights 0 to 7" },
+		{ "lights:\n- light: 9\n  off: yes\n", "between 0 and 7" },
 	};
 
 	for (size_t i = 0; i < sizeof(wrong) / sizeof(wrong[0]); i++) {
