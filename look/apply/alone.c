@@ -6,7 +6,7 @@
 #include "base/err.h"
 #include "look/apply/match.h"
 
-/* Keys that candidates put together. */
+/* Bits for the keys that a candidate combines. */
 enum { TEXTURE = 1, MESH = 2, LIST = 4, DRAWS = 8 };
 
 static void write_hash(const char *key, const uint64_t hash[2], char *out, size_t size)
@@ -18,7 +18,7 @@ static void write_keys(const struct scene *scene, const struct scene_instance *i
 {
 	const struct scene_material *m = &scene->materials[in->material];
 	char texture[64] = "", mesh[64] = "", list[32] = "", draws[32] = "";
-	/* of several, the first may be a shadow or light that others have, too */
+	/* the last of several, since the first may be a shadow or light shared with other surfaces */
 	const uint32_t last = m->unit_first + m->unit_count - 1;
 	int n;
 
@@ -31,10 +31,11 @@ static void write_keys(const struct scene *scene, const struct scene_instance *i
 	if (which & DRAWS)
 		snprintf(draws, sizeof(draws), "draws: \"%u\", ", in->draw);
 	n = snprintf(keys, ALONE_BYTES, "{ %s%s%s%s", texture, mesh, list, draws);
-	snprintf(keys + n - 2, ALONE_BYTES - (size_t)n + 2, " }"); /* in place of the last comma */
+	snprintf(keys + n - 2, ALONE_BYTES - (size_t)n + 2, " }"); /* replaces the last comma */
 }
 
-/* How many instances a rule with these keys matches, by the rules' own reader. @return ERR_SYSTEM (reported) */
+/* The number of instances that a rule with these keys matches, according to the rules' own reader. @return ERR_SYSTEM
+ * (reported) */
 static int count_matches(const struct scene *scene, const char *keys)
 {
 	struct applying a = { .scene = scene };

@@ -1,4 +1,4 @@
-/* The keys by which a rule matches one surface of a frame, and no other. */
+/* Keys of a rule that match one surface of a frame and no other. */
 #pragma once
 
 #include <stddef.h>
@@ -8,10 +8,11 @@
 enum { ALONE_BYTES = 256 };
 
 /**
- * Find the keys of `match` that single out an instance: those that hold longest first, its texture, then its mesh, then
- * both, then its display list; where all of these are shared, its draw number, which holds in this frame alone.
+ * Find keys of `match` that single out an instance. The most durable come first: its texture, its mesh, both
+ * together, its display list. If other instances share all of these, the draw number is used, which applies to this
+ * frame alone.
  * @param keys  receives them as YAML: { mesh: "90c2..." }
- * @return how many other instances of the frame the keys but `draws` match, which is 0 where there is no such key;
- * ERR_SYSTEM (reported)
+ * @return the number of other instances that the keys match apart from `draws`; 0 if that key is absent; ERR_SYSTEM
+ * (reported)
  */
 int alone_find(const struct scene *scene, uint32_t instance, char keys[ALONE_BYTES]);

@@ -24,7 +24,7 @@ static void add_parameters(struct scene *out, const struct parameter_rule *list,
 	}
 }
 
-/* What rules say to hooks about an instance. */
+/* Collect the parameters that rules pass to hooks for an instance. */
 static void list_parameters(const struct applying *a, const struct scene_instance *in, struct scene_surface *s)
 {
 	const uint32_t first = a->out->n_parameters;
@@ -38,7 +38,7 @@ static void list_parameters(const struct applying *a, const struct scene_instanc
 	}
 }
 
-/* What sparing, highlights, the sky and rules say of an instance's surface. m: its material, still OpenGL's own */
+/* Apply sparing, highlights, the sky and rules to an instance's surface. @param m  its material, as OpenGL has it */
 static void set_surface(const struct applying *a, uint32_t i, struct scene_material *m)
 {
 	const struct scene_instance *in = &a->scene->instances[i];
@@ -62,7 +62,7 @@ static void set_surface(const struct applying *a, uint32_t i, struct scene_mater
 		}
 }
 
-/* Whether the tracer lights the surface anew, and what its vertices or texels then hold of light. */
+/* Decide whether the tracer replaces the surface's light, and which light its vertices or texels contain. */
 static void decide_lighting(const struct applying *a, const struct scene_instance *in, const struct scene_material *m,
                             struct scene_surface *s)
 {
@@ -82,7 +82,7 @@ static void decide_lighting(const struct applying *a, const struct scene_instanc
 		s->light_unit = 0;
 }
 
-/* Change the surface of one instance: it gets a material of its own, where anything changes. */
+/* Change the surface of an instance, giving it a material of its own if anything changes. */
 static int change_instance(const struct applying *a, uint32_t i)
 {
 	const struct scene_instance *in = &a->scene->instances[i];
@@ -120,7 +120,7 @@ static int copy_scene(struct applying *a)
 {
 	const struct scene *scene = a->scene;
 	struct scene *out = a->out;
-	const size_t copies = a->look && a->look->repaired ? 3 : 1; /* own, repaired, repaired and round */
+	const size_t copies = a->look && a->look->repaired ? 3 : 1; /* own, repaired, repaired and smooth */
 	size_t n = scene->n_instances, parameters = 0;
 
 	*out = *scene;
@@ -130,7 +130,7 @@ static int copy_scene(struct applying *a)
 	out->instances = malloc((copies * n + 1) * sizeof(*out->instances));
 	out->materials = malloc((scene->n_materials + copies * n + 2) * sizeof(*out->materials));
 	out->views = malloc((2 * scene->n_views + (size_t)1) * sizeof(*out->views));
-	/* untouched, it is no memory */
+	/* pages that stay untouched take no memory */
 	out->lights = malloc((scene->n_lights + SCENE_MAX_LIGHTS * (n + 1)) * sizeof(*out->lights));
 	out->meshes = malloc((scene->n_meshes + copies * n + 1) * sizeof(*out->meshes));
 	if (!out->instances || !out->materials || !out->views || !out->lights || !out->meshes || !out->parameters) {
@@ -145,7 +145,7 @@ static int copy_scene(struct applying *a)
 		memcpy(out->instances, scene->instances, n * sizeof(*out->instances));
 	for (uint32_t v = 0; v < 2 * scene->n_views; v++) {
 		out->views[v] = scene->views[v % scene->n_views];
-		if (v >= scene->n_views) /* nobody looks through it (meshes_repair) */
+		if (v >= scene->n_views) /* a view that covers no pixel (meshes_repair) */
 			memset(out->views[v].scissor, 0, sizeof(out->views[v].scissor));
 	}
 	if (scene->n_materials)
@@ -157,10 +157,10 @@ static int copy_scene(struct applying *a)
 	return 0;
 }
 
-/* 1 where rules say of everything what light it lets through, or that nothing is spared. */
+/* 1 if rules determine the passing light for every surface, or turn sparing off. */
 static int decides_sparing(const struct rules *rules)
 {
-	int decided = 0; /* bits: 1 of what is not lit, 2 of what is */
+	int decided = 0; /* bits: 1 for unlit surfaces, 2 for lit ones */
 
 	for (uint32_t k = 0; k < rules->surfaces_count; k++) {
 		const struct match only = { .lit = rules->surfaces[k].match ? rules->surfaces[k].match->lit : NULL };

@@ -1,5 +1,6 @@
 /*
- * A scene under rules (look/rules.h). OpenGL's own picture stays as it was: rules change what the tracer adds to it.
+ * Applies rules (look/rules.h) to a scene. OpenGL's own picture stays the same; rules change what the tracer adds to
+ * it.
  */
 #pragma once
 
@@ -9,10 +10,11 @@
 struct look;
 
 /**
- * A scene under the rules.
- * @param look   NULL: none; what does harm is spared all the same (look/spare.h)
+ * Apply rules to a scene.
+ * @param look   NULL: no rules; surfaces that would do harm are spared even so (look/spare.h)
  * @param out    a copy that borrows what has not changed; free it with look_release before the scene
- * @param found  receives what is spared, or would be if rules did not say no; spare_free. NULL: not asked for
+ * @param found  receives what is spared, or would be if rules did not forbid it; free with spare_free. NULL: not
+ * wanted
  * @return 0 or ERR_SYSTEM (reported)
  */
 int look_apply(const struct look *look, const struct scene *scene, struct scene *out, struct spare *found);

@@ -1,4 +1,4 @@
-/* A scene on its way under the rules: what the files of this room share. */
+/* A scene to which rules are being applied, as shared by the files of this folder. */
 #pragma once
 
 #include <stdint.h>
@@ -10,21 +10,21 @@
 
 struct applying {
 	const struct look *look;
-	const struct rules *rules; /* the look's */
+	const struct rules *rules; /* of the look */
 	const struct spare *spare; /* NULL: nothing is spared */
 	const struct scene *scene;
 	struct scene *out;
-	float eye_from_world[16], world_from_eye[16]; /* where lights and planes of the world are */
+	float eye_from_world[16], world_from_eye[16]; /* transforms for lights and planes in the world */
 	int knows_world;
-	int has_mirror;           /* pictures in mirrors may be left out */
-	uint8_t *in_plane; /* [instances][surfaces]: whether a rule's plane holds an instance, 1 no, 2 yes; 0: not asked
-	                      yet */
-	uint32_t *matched;        /* [surfaces]: draws that each rule matched */
-	int lights_change; /* bits: 1 of what OpenGL does not light, 2 of what it lights, 4 where a unit holds a shadow,
-	                      8 where faces look round */
+	int has_mirror;           /* draws reflected in mirrors may be left out */
+	uint8_t *in_plane; /* [instances][surfaces] whether an instance lies in a rule's plane: 1 no, 2 yes; 0: not
+	                      tested yet */
+	uint32_t *matched;        /* [surfaces]: number of draws that each rule matched */
+	int lights_change; /* bits: 1 for surfaces that OpenGL does not light, 2 for those that it lights, 4 if a
+	                      unit holds a shadow, 8 if faces look round */
 };
 
-/** A number of a rule, where it gives one. from: [n], or NULL */
+/** Copy the numbers of a rule if it has them. @param from  [n], or NULL */
 static inline void applying_number(float *to, const float *from, int n)
 {
 	if (from)

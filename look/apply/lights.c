@@ -6,7 +6,7 @@
 #include "look/world.h"
 #include "scene/box.h"
 
-/* Between ambient light and what a program rounds to 8 bits. */
+/* The tolerance between ambient light and colours that a program rounded to 8 bits. */
 #define SHADE (2.0f / 255)
 
 int lights_in_world(const struct light_rule *r)
@@ -14,7 +14,7 @@ int lights_in_world(const struct light_rule *r)
 	return r->space && strcmp(r->space, "world") == 0;
 }
 
-/* Which surfaces an added light falls on: bits as applying.lights_change. */
+/* Bits for the surfaces that an added light reaches, as in applying.lights_change. */
 static int lit_by(const struct light_rule *r)
 {
 	return r->on && strcmp(r->on, "unlit") == 0 ? 1 : 3;
@@ -50,7 +50,7 @@ static void turn_spot(const struct applying *a, const struct light_rule *r, floa
 		mat4_turn(out, a->eye_from_world, out);
 }
 
-/* How large it is, or that nothing stops it. */
+/* Set a light's size, and whether anything blocks it. */
 static void size_light(struct scene_light *l, const struct light_rule *r)
 {
 	applying_number(&l->radius, r->radius, 1);
@@ -75,7 +75,7 @@ static void set_light(const struct applying *a, struct scene_light *l, const str
 	applying_number(&l->spot_exponent, r->spot->exponent, 1);
 }
 
-/* GL's lights of a material under the rules. @return how many */
+/* The lights of GL for a material, under the rules. @return how many */
 static uint32_t list_own_lights(const struct applying *a, const struct scene_material *m, struct scene_light *out)
 {
 	const struct rules *rules = a->rules;
@@ -99,7 +99,8 @@ static uint32_t list_own_lights(const struct applying *a, const struct scene_mat
 	return n;
 }
 
-/* How much light reaches an object's middle at most, the ambient part doubly: it reaches all of it. */
+/* An upper bound for the light that reaches an object's middle. The ambient part counts twice, since it reaches the
+ * whole object. */
 static float strength_at(const struct scene_light *l, const float middle[4])
 {
 	float square = 0, distance, power = 0;

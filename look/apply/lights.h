@@ -1,27 +1,29 @@
-/* Lights and the sky under the rules. */
+/* Lights and the sky under rules. */
 #pragma once
 
 #include "look/apply/applying.h"
 
-/** 1 where a light's rule stands in the world, not in eye space. */
+/** 1 if a rule places its light in the world rather than in eye space. */
 int lights_in_world(const struct light_rule *r);
 
-/** Bits as applying.lights_change: which surfaces a rule of lights lights otherwise than OpenGL. 0: it gives a light a
- * size at most. */
+/** Bits for the surfaces whose light a rule changes, as in applying.lights_change. 0: the rule only gives a light a
+ * size. */
 int lights_change_of(const struct light_rule *r);
 
-/** A light's position in eye space. It stays as written where the frame does not draw its object. */
+/** A light's position in eye space. If the frame does not draw its object, the position is taken as written. */
 void lights_place(const struct applying *a, const struct light_rule *r, float out[4]);
 
-/** An instance's lights: OpenGL's under the rules, and added ones, the strongest where they are too many. @return how
- * many */
+/**
+ * The lights of an instance: OpenGL's under the rules, and added ones; if there are too many, the strongest. @return
+ * how many
+ */
 uint32_t lights_list(const struct applying *a, const struct scene_instance *in, const struct scene_material *m,
                      struct scene_light out[SCENE_MAX_LIGHTS]);
 
-/** 1 where an instance whose vertices all have one colour is as bright as ambient light makes it: no other light of the
- * rules falls there. */
+/** 1 if an instance whose vertices all have one colour is as bright as ambient light makes it, so that no other light
+ * of the rules reaches it. */
 int lights_leave_in_shade(const struct applying *a, const struct scene_instance *in);
 
-/** The sizes of OpenGL's own lights, and the sky, of the changed scene. */
+/** Set the sizes of OpenGL's own lights, and the sky, in the changed scene. */
 void lights_size(const struct rules *rules, struct scene *s);
 void lights_set_sky(const struct applying *a);

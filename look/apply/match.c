@@ -50,7 +50,7 @@ static int matches(const struct scene *s, const struct scene_instance *in, const
 	       !differs(r->alpha_tested, (int)m->alpha_test) && !differs(r->depth_tested, (int)m->depth_test);
 }
 
-/* 1 where a rule replaces a trick, and the file says that tricks stay. */
+/* 1 if a rule replaces a trick, but the file keeps tricks. */
 static int is_kept(const struct rules *rules, const struct surface_rule *r)
 {
 	return rules->replace && !*rules->replace && (r->left_out || r->solid || r->shadow_unit);
@@ -83,7 +83,7 @@ int match_applies(const struct applying *a, const struct scene_instance *in, uin
 	return matches(a->scene, in, r->match, &a->look->draws[k]) && is_where_said(a, in, k);
 }
 
-/* 1 where a solid mirror is in the frame, or rules know of none. */
+/* 1 if the frame has a solid mirror, or rules have none. */
 static int has_mirror(const struct applying *a)
 {
 	int known = 0;
@@ -116,7 +116,7 @@ int match_begin(struct applying *a)
 	a->knows_world = world_find(a->rules, a->scene, a->eye_from_world, NULL);
 	mat4_invert(a->world_from_eye, a->eye_from_world);
 	if (in_world && !a->knows_world) {
-		a->rules = &none; /* its lights stand nobody knows where */
+		a->rules = &none; /* the positions of its lights are unknown */
 		a->lights_change = 0;
 	}
 	a->in_plane = calloc(a->scene->n_instances + (size_t)1, a->rules->surfaces_count + (size_t)1);

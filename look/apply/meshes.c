@@ -8,7 +8,7 @@
 #include "look/repaired.h"
 #include "scene/repair/holds.h"
 
-/* The angle up to which an instance's faces look round, in degrees. */
+/* The angle, in degrees, up to which edges of an instance look round. */
 static float crease_of(const struct applying *a, const struct scene_instance *in)
 {
 	float angle = 0;
@@ -47,7 +47,7 @@ int meshes_wants_repair(const struct applying *a, const struct scene_instance *i
 	return rule && repaired_wants(rule, a->scene, in, m, wants);
 }
 
-/* 1 where the viewer is not in a body. mesh: an instance's, closed */
+/* 1 if the viewer is outside a body. @param mesh  the instance's; closed */
 static int is_outside(const struct scene *s, const struct scene_instance *in, const struct scene_mesh *mesh)
 {
 	float obj_from_eye[16], viewer[4];

@@ -5,7 +5,7 @@ void surface_set(struct scene_surface *s, const struct surface_rule *r, int spar
 	uint32_t passes;
 
 	applying_number(&s->reflect, r->reflect, 1);
-	if (r->reflect) { /* it is no longer what highlights say */
+	if (r->reflect) { /* overrides the highlights */
 		s->hidden &= ~SCENE_NEAR_MIRROR;
 		s->roughness = 0;
 	}
@@ -15,7 +15,7 @@ void surface_set(struct scene_surface *s, const struct surface_rule *r, int spar
 	applying_number(s->absorb, r->absorb, 3);
 	applying_number(s->emission, r->emission, 3);
 	if (r->passes && spares && spare_named(r->passes, &passes)) {
-		passes &= s->hidden | ~SCENE_ONE_SIDED; /* where no lamp is behind it, there is none to ask of */
+		passes &= s->hidden | ~SCENE_ONE_SIDED; /* without a lamp behind, there is nothing to test */
 		passes |= passes & SCENE_ONE_SIDED ? s->hidden & SPARE_WINDING : 0;
 		s->hidden = (s->hidden & ~SPARE_BITS) | passes;
 	}

@@ -1,7 +1,7 @@
-/* What a rule says of a surface. */
+/* Applies a rule to a surface. */
 #pragma once
 
 #include "look/apply/applying.h"
 
-/** spares: 1 unless rules say `spare: no` */
+/** @param spares  1 unless rules say `spare: no` */
 void surface_set(struct scene_surface *s, const struct surface_rule *r, int spares);

@@ -15,7 +15,7 @@
 
 enum { TOLD_BYTES = 250, TOLD_DRAWS = 90, MOST_REPAIRS = 64 };
 
-/* 1 where a rule of surfaces before the k-th has its role: they are told together. */
+/* 1 if an earlier rule for surfaces has the same role as the k-th; they share a line. */
 static int is_told(const struct rules *rules, uint32_t k)
 {
 	for (uint32_t i = 0; i < k; i++)
@@ -45,7 +45,7 @@ static int is_with_role(const void *user, const struct scene *scene, uint32_t i)
 	return has_role(w->a, &scene->instances[i], w->role);
 }
 
-/* The draws of a role, as ranges, as many as there is room for. @return 0 or ERR_SYSTEM (reported) */
+/* The draws of a role, as ranges, cut off if there are too many. @return 0 or ERR_SYSTEM (reported) */
 static int list_draws(const struct applying *a, const char *role, char out[TOLD_DRAWS])
 {
 	char *all = scene_draw_list(a->scene, is_with_role, &(struct with_role){ a, role });
@@ -87,7 +87,7 @@ static int tell_surfaces(const struct applying *a, int (*tell)(void *user, const
 	return err;
 }
 
-/* The first instance of each repaired mesh, and what was done to it. */
+/* Report the first instance of each repaired mesh, and its repair. */
 static int tell_repairs(const struct applying *a, int (*tell)(void *user, const char *text), void *user)
 {
 	const struct scene *s = a->scene;

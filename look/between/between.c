@@ -18,7 +18,7 @@ struct interval {
 	int is_cut;
 };
 
-/* A scene on its way. */
+/* A scene being made. */
 struct making {
 	const struct bridge *b;
 	struct mixer mixer;
@@ -67,7 +67,7 @@ static void take(float out[16], const double part[16], const float place[16])
 		out[k] = (float)to[k];
 }
 
-/* The part of a couple's motion at this moment. @return 0: no body moves so */
+/* The part of a couple's motion up to this moment. @return 0: no rigid body moves like this */
 static int part_of(const struct making *m, const struct couple *c, int filmed, double out[16])
 {
 	double own[16], part[16];
@@ -87,7 +87,7 @@ static int part_of(const struct making *m, const struct couple *c, int filmed, d
 	return 1;
 }
 
-/* A draw that flattens goes with the camera if that explains its motion, else number by number. */
+/* A flattened draw moves with the camera if that explains its motion; otherwise its numbers are mixed. */
 static void place_flat(const struct making *m, uint32_t i, int filmed, float out[16])
 {
 	const float *first = bridge_place(m->b, i, 0), *second = bridge_place(m->b, i, 1);
@@ -108,7 +108,7 @@ static void place_flat(const struct making *m, uint32_t i, int filmed, float out
 		out[k] = first[k] + (float)m->mixer.at * (second[k] - first[k]);
 }
 
-/* A draw without a partner goes with the camera. */
+/* A draw without a partner moves with the camera. */
 static void place_alone(const struct making *m, uint32_t i)
 {
 	const struct scene_instance *in = &m->b->base->instances[i];
@@ -155,7 +155,7 @@ static int place(struct making *m, uint32_t i)
 
 /* --- The scene --------------------------------------------------------------------------------------------------- */
 
-/* Room for one more. */
+/* Allocate a copy with room for one more item. */
 static void *copy_of(const void *items, size_t n, size_t size)
 {
 	void *copy = malloc((n + 1) * size);
@@ -165,7 +165,7 @@ static void *copy_of(const void *items, size_t n, size_t size)
 	return copy;
 }
 
-/* All arrays that mixing changes. */
+/* Copy all arrays that mixing changes. */
 static int copy_scene(const struct scene *s, struct scene *out)
 {
 	*out = *s;
@@ -192,7 +192,7 @@ static void name_scene(const struct making *m)
 		double at;
 	} of = { m->b->base->serial, m->b->other->serial, m->mixer.at };
 
-	m->mixer.out->serial = XXH3_64bits(&of, sizeof(of)) | 1; /* 0 is none */
+	m->mixer.out->serial = XXH3_64bits(&of, sizeof(of)) | 1; /* 0 means none */
 }
 
 /* @return 0 or ERR_SYSTEM (reported) */

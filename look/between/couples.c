@@ -14,7 +14,7 @@
 
 /* --- The camera -------------------------------------------------------------------------------------------------- */
 
-/* 1 if a draw helps to find how the camera moves: opaque, in depth and perspective. */
+/* 1 if a draw counts for the camera's motion: opaque, with depth, in perspective. */
 static int votes(const struct bridge *b, uint32_t i)
 {
 	const struct scene *s = b->base;
@@ -26,7 +26,7 @@ static int votes(const struct bridge *b, uint32_t i)
 	       !drawn_in_parallel(&s->views[in->view]);
 }
 
-/* Sort the motions that draws have. of: what is_sure says of these. @return their weight */
+/* Collect the motions of draws. @param of  the value of is_sure of these draws @return their weight */
 static double gather_motions(struct bridge *b, int of)
 {
 	const struct scene *s = b->base;
@@ -59,7 +59,7 @@ static double gather_motions(struct bridge *b, int of)
 	return all;
 }
 
-/* Sure draws say how the camera moves; without any, all do. */
+/* Find the camera's motion from sure draws or, if there are none, from all. */
 static void find_camera(struct bridge *b)
 {
 	double all = gather_motions(b, 1), part[16];
@@ -99,7 +99,7 @@ static int couple_by_number(struct bridge *b)
 	return err;
 }
 
-/* 1 if a couple does not move, or goes with the camera. */
+/* 1 if a couple stands still or moves with the camera. */
 static int is_still(const struct bridge *b, uint32_t i)
 {
 	const struct couple *c = &b->couples[i];
@@ -108,7 +108,8 @@ static int is_still(const struct bridge *b, uint32_t i)
 	       (c->moves && bridge_agrees(c, bridge_is_filmed(b, i) ? b->camera->motion : matrix_identity, c->motion));
 }
 
-/* Draws without depth, such as letters, keep the base's place if they move: no evidence says which is which. */
+/* Leave draws without depth, such as letters, at the base's position if they move, because nothing proves which is
+ * which. */
 static void leave_flat(struct bridge *b)
 {
 	const struct scene *s = b->base;

@@ -1,10 +1,11 @@
 /*
- * Which draws of two frames are one: by mesh and number (look/followed.h), then crowds (crowds.h) and what deforms
- * (deforming.h); and the motion of the camera, which more than half of the opaque things share, by size.
+ * Draws of two frames that show the same thing: matched by mesh and number (look/followed.h), then in crowds
+ * (crowds.h), then deforming ones (deforming.h). Also the motion of the camera, shared by more than half of the
+ * opaque surfaces, by size.
  */
 #pragma once
 
 #include "look/between/bridge.h"
 
-/** Fill a bridge. @return 0 or ERR_SYSTEM (reported): bridge_end all the same */
+/** Fill a bridge. @return 0 or ERR_SYSTEM (reported); call bridge_end in any case */
 int couples_find(struct bridge *b, const struct scene *base, const struct scene *other, int is_back);

@@ -8,9 +8,9 @@
 #include "look/followed.h"
 #include "look/matrix.h"
 
-#define WINDOW 64u       /* places in its crowd that a draw may be off */
-#define MOST_MOTIONS 9u  /* are tried, standing still among them */
-#define SAME_SHAPE 1e-3  /* times a shape's size squared */
+#define WINDOW 64u       /* how far apart partners may be in the order of their crowd */
+#define MOST_MOTIONS 9u  /* that are tried, standing still included */
+#define SAME_SHAPE 1e-3  /* relative to a shape's size squared */
 
 static uint64_t key_of(const struct scene *s, uint32_t instance, const void *with)
 {
@@ -27,7 +27,7 @@ static int is_crowd(const struct group *g)
 
 /* --- Shapes ------------------------------------------------------------------------------------------------------ */
 
-/* The products of a modelview's columns: no motion changes them. */
+/* The dot products of a modelview's columns, which motions do not change. */
 static void shape_of(const float m[16], double out[6])
 {
 	for (int k = 0, i = 0; i < 3; i++)
@@ -86,7 +86,7 @@ int crowds_find(struct bridge *b, struct groups *crowds)
 
 /* --- The others -------------------------------------------------------------------------------------------------- */
 
-/* How far a rival is from where a motion takes a draw. NULL: it stays */
+/* The distance of a rival from where a motion takes a draw. @param motion  NULL: the draw stays */
 static double distance(const struct bridge *b, uint32_t i, uint32_t other, const double *motion)
 {
 	double here[16], there[16], moved[16], off = 0, far = 0;
@@ -97,7 +97,7 @@ static double distance(const struct bridge *b, uint32_t i, uint32_t other, const
 		matrix_mul(moved, motion, here);
 	else
 		memcpy(moved, here, sizeof(moved));
-	for (int k = 0; k < 8; k += 1 + 2 * (k == 0) + (k == 3)) { /* 0, 3, 5, 6: those corners are no neighbours */
+	for (int k = 0; k < 8; k += 1 + 2 * (k == 0) + (k == 3)) { /* corners 0, 3, 5 and 6 are not adjacent */
 		double corner[4], p[4], q[4];
 
 		bridge_corner(b, i, k, corner);
@@ -120,8 +120,10 @@ static int is_same_mesh(const struct bridge *b, uint32_t i, uint32_t other)
 }
 
 /*
- * The nearest free rival of a member, up to `most` away from where a motion takes it; of several one of the same mesh.
- * is_shaped: 1: of the same shape alone. SCENE_NONE: there is none
+ * The nearest free rival of a member, at most `most` from where a motion takes the member; among equals, one with the
+ * same mesh.
+ * @param is_shaped  1: only rivals of the same shape
+ * @return SCENE_NONE: there is none
  */
 static uint32_t nearest(const struct bridge *b, const struct group *c, uint32_t member, const double *motion,
                         double most, int is_shaped)
@@ -156,7 +158,8 @@ static void couple_by_motions(struct bridge *b, struct group *c)
 	for (unsigned g = 0; g < b->n_motions + 1 && g < MOST_MOTIONS; g++)
 		for (uint32_t k = 0; k < c->n; k++) {
 			const struct scene_view *view = &b->base->views[b->base->instances[c->members[k]].view];
-			const int is_still = g == b->n_motions || g + 1 == MOST_MOTIONS; /* at last those that do not move */
+			const int is_still = g == b->n_motions || g + 1 == MOST_MOTIONS; /* those that stand still
+			                                                                    come last */
 			uint32_t rival;
 
 			if (group_is_coupled(b, c, k) || (!is_still && view->space != b->motions[g].space))
@@ -167,7 +170,7 @@ static void couple_by_motions(struct bridge *b, struct group *c)
 		}
 }
 
-/* 1 if nothing speaks against the n-th being the n-th. */
+/* 1 if nothing contradicts pairing the n-th with the n-th. */
 static int keeps_order(const struct bridge *b, const struct group *c)
 {
 	uint32_t k = 0;

@@ -4,12 +4,13 @@
 
 #include "look/matrix.h"
 
-#define ALL_POINTS 32768u /* are looked at in a frame */
-#define MOST_POINTS 4096u /* in a triangle, at most */
-#define FAR 1.0           /* half the picture's width: what moves farther in a frame is not followed by eye */
-#define MOST_AREA 0.01    /* a point's, as it is shown: a hundredth of a square half as wide as the picture */
+#define ALL_POINTS 32768u /* samples in a frame */
+#define MOST_POINTS 4096u /* samples in a triangle, at most */
+#define FAR 1.0           /* half the picture's width: the eye does not follow anything faster than this in a frame */
+#define MOST_AREA 0.01    /* largest area of a point in the picture: a hundredth of a square half as wide as the
+                             picture */
 
-/* A draw in a frame. */
+/* A draw in one frame. */
 struct shown {
 	const struct scene_mesh *mesh;
 	double eye[16], projection[16];
@@ -25,7 +26,7 @@ static struct shown shown_of(const struct scene *s, uint32_t instance)
 	return d;
 }
 
-/* A triangle in clip space: the first corner, and the edges from there. */
+/* A triangle in clip space: the first corner, and the edges from it. */
 static void place(const struct shown *d, uint32_t triangle, double corner[4], double edge[2][4])
 {
 	double at[3][4];
@@ -46,9 +47,9 @@ static void place(const struct shown *d, uint32_t triangle, double corner[4], do
 }
 
 /*
- * A point (u, v) of a triangle's edges on the picture, which is 2 wide and 2 high.
- * @param area  receives how much of the picture the triangle would take if all of it were as here
- * @return 0: it is behind the viewer
+ * Project the point (u, v) of a triangle to the picture, which is 2 wide and 2 high.
+ * @param area  receives the area of the triangle in the picture, were all of it projected as at this point
+ * @return 0: the point is behind the viewer
  */
 static int show(const double corner[4], const double edge[2][4], double u, double v, double out[2], double *area)
 {
@@ -67,7 +68,7 @@ static int show(const double corner[4], const double edge[2][4], double u, doubl
 	return 1;
 }
 
-/* Point k of n that lie evenly in a triangle (as kernels/frame/sample.h has its plain samples). */
+/* Point k of n evenly distributed points in a triangle (like the plain samples of kernels/frame/sample.h). */
 static void point_of(uint32_t k, double *u, double *v)
 {
 	*u = fmod(0.5 + k * 0.75487766624669276, 1);
@@ -78,7 +79,8 @@ static void point_of(uint32_t k, double *u, double *v)
 	}
 }
 
-/* Add what a frame shows of a triangle, and how much of that is not far away in another; was NULL: nothing is. */
+/* Add the visible area of a triangle, and the part that is not far away in another frame. @param was  NULL: it is not
+ * there */
 static void compare(const struct shown *now, const struct shown *was, uint32_t triangle, uint32_t n, double *all,
                     double *kept)
 {
@@ -101,7 +103,7 @@ static void compare(const struct shown *now, const struct shown *was, uint32_t t
 	}
 }
 
-/* 1 if a draw is part of the world: solid, and where its program says. */
+/* 1 if a draw belongs to the world: solid, and placed without a program. */
 static int counts(const struct scene *s, uint32_t i)
 {
 	const struct scene_instance *in = &s->instances[i];

@@ -12,15 +12,15 @@
 #include "look/matrix.h"
 #include "scene/box.h"
 
-#define ALONE 0.5 /* the price of a draw without a partner, if one frame has more of them */
-#define MOST_COMPARED (1u << 26) /* edges, of all pairs of a kind; of more, the n-th is compared with the n-th alone */
+#define ALONE 0.5 /* cost of a draw without a partner, if one frame has more of them */
+#define MOST_COMPARED (1u << 26) /* edges, over all pairs of a kind; above this, only the n-th are compared */
 
 /* --- Kinds ------------------------------------------------------------------------------------------------------- */
 
 /* The points of both frames. */
 struct points {
 	const struct scene *base;
-	struct table of[2]; /* the base's, the other's: keys -> anything */
+	struct table of[2]; /* of the base and of the other frame: keys -> any value */
 };
 
 /* @return 0 or ERR_SYSTEM (reported) */
@@ -56,7 +56,7 @@ static size_t edge_count(const struct scene *s, uint32_t i)
 	return (size_t)mesh->primitive_count * mesh->kind;
 }
 
-/* Their lengths in eye space: no motion changes them. */
+/* The lengths of edges in eye space, which motions do not change. */
 static void measure_edges(const struct scene *s, uint32_t i, float *out)
 {
 	const struct scene_mesh *mesh = s->meshes[s->instances[i].mesh];
@@ -76,7 +76,7 @@ static void measure_edges(const struct scene *s, uint32_t i, float *out)
 	}
 }
 
-/* How much lengths differ, as a share of the longer ones. */
+/* The difference of lengths, as a share of the longer ones. */
 static double stretch(const float *a, const float *b, size_t n)
 {
 	double off = 0, all = 0;
@@ -90,12 +90,12 @@ static double stretch(const float *a, const float *b, size_t n)
 
 /* --- Prices ------------------------------------------------------------------------------------------------------ */
 
-/* A kind with the places of its draws in the other frame's eye space, and their edges: members, then rivals. */
+/* A kind, with the places and edges of its draws in the other frame's eye space: members, then rivals. */
 struct kind {
 	struct bridge *b;
 	struct group *g;
-	size_t n_edges;       /* each draw has */
-	double alone;         /* the price of a draw without a partner */
+	size_t n_edges;       /* of each draw */
+	double alone;         /* cost of a draw without a partner */
 	struct place *places; /* [n + n_rivals] */
 	float *edges;         /* [n + n_rivals][n_edges] */
 };
@@ -136,7 +136,7 @@ static double size_of(const struct kind *kind, uint32_t member, uint32_t rival)
 	return fmax(kind->places[member].size, kind->places[kind->g->n + rival].size);
 }
 
-/* The price of a couple. INFINITY: these are not one */
+/* The cost of a couple. INFINITY: they cannot be one */
 static double price(const struct kind *kind, uint32_t member, uint32_t rival)
 {
 	const struct group *g = kind->g;
@@ -153,7 +153,9 @@ static double price(const struct kind *kind, uint32_t member, uint32_t rival)
 
 /*
  * The cheapest alignment of members and rivals (Needleman and Wunsch 1970), from the last ones to the first.
- * steps: [n + 1][n_rivals + 1]: what is done next at a place in both: 0: couple them, 1: leave the member, 2: the rival
+ * @param steps  [n + 1][n_rivals + 1]: the next step from a position in both: 0: couple them, 1: skip the member, 2:
+ * skip
+ *               the rival
  */
 static void align(const struct kind *kind, unsigned char *steps, double *row)
 {
@@ -164,7 +166,7 @@ static void align(const struct kind *kind, unsigned char *steps, double *row)
 		steps[(size_t)n * (m + 1) + j] = 2;
 	}
 	for (uint32_t i = n; i-- > 0;) {
-		double after = row[m]; /* the next member and the next rival */
+		double after = row[m]; /* the cost from the next member and the next rival on */
 
 		row[m] += kind->alone;
 		steps[(size_t)i * (m + 1) + m] = 1;
@@ -179,7 +181,8 @@ static void align(const struct kind *kind, unsigned char *steps, double *row)
 	}
 }
 
-/* partners: [n]: receives each member's rival, or SCENE_NONE. @return 0 or ERR_SYSTEM (reported) */
+/* @param partners  [n]: receives each member's rival, or SCENE_NONE
+ * @return 0 or ERR_SYSTEM (reported) */
 static int find_partners(const struct kind *kind, uint32_t *partners)
 {
 	const uint32_t n = kind->g->n, m = kind->g->n_rivals;
@@ -203,8 +206,8 @@ static int find_partners(const struct kind *kind, uint32_t *partners)
 }
 
 /*
- * Couple a member if that is cheap, or if it does not leave the cheap one before it in this direction.
- * reach: how far that one and its size go
+ * Couple a member if that is cheap, or if it stays close to the cheap one before it in this direction.
+ * @param reach  how far that one moved, and its size
  */
 static void couple_partner(const struct kind *kind, uint32_t member, uint32_t rival, double *reach)
 {

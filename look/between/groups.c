@@ -5,10 +5,10 @@
 #include "base/memory.h"
 #include "base/table.h"
 
-/* A frame's draws by key: the first + 1, and the next of each. */
+/* The draws of a frame by key: the first + 1, and the next after each. */
 struct lists {
 	struct table first;
-	uint32_t *next; /* [instances], or SCENE_NONE */
+	uint32_t *next; /* [instances]: the next one, or SCENE_NONE */
 };
 
 /* @return 0 or ERR_SYSTEM (reported) */
@@ -36,7 +36,7 @@ static void free_lists(struct lists *l)
 	free(l->next);
 }
 
-/* The draws of a key. @return NULL: no memory (reported) */
+/* The draws with a key. @return NULL: no memory (reported) */
 static uint32_t *take_list(const struct lists *l, uint64_t key, uint32_t *n)
 {
 	const uint32_t first = (uint32_t)((uintptr_t)table_find(&l->first, key) - 1);

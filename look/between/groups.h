@@ -1,4 +1,4 @@
-/* Draws of two frames in groups: those that one key names, in the order of each frame. */
+/* Draws of two frames, grouped by a key, in the order of each frame. */
 #pragma once
 
 #include "look/between/bridge.h"
@@ -14,19 +14,21 @@ struct groups {
 	uint32_t n, room;
 };
 
-/** Names a draw of one of the two frames. with: as given. @return 0: it is in no group */
+/**
+ * The key of a draw of one of the two frames. @param with  as passed to groups_find @return 0: it belongs to no group
+ */
 typedef uint64_t groups_key(const struct scene *s, uint32_t instance, const void *with);
 
 /**
- * Gather the draws of both frames, but no pixel rectangles. Each group has a draw of the base.
- * @return 0 or ERR_SYSTEM (reported): groups_free all the same
+ * Group the draws of both frames, except pixel rectangles. Each group has a draw of the base.
+ * @return 0 or ERR_SYSTEM (reported); call groups_free in any case
  */
 int groups_find(struct groups *groups, const struct bridge *b, groups_key *key, const void *with);
 void groups_free(struct groups *groups);
 
-/** Couple a member of a group and a rival of it, by their places in it. */
+/** Couple a member and a rival of a group, given their positions in it. */
 void group_couple(struct bridge *b, struct group *g, uint32_t member, uint32_t rival);
 int group_is_coupled(const struct bridge *b, const struct group *g, uint32_t member);
 
-/** Let a draw be without a partner, which is yet to be found among several. */
+/** Undo a draw's couple, which is then chosen among several. */
 void group_part(struct bridge *b, uint32_t i);

@@ -12,7 +12,7 @@
 #include "look/matrix.h"
 #include "scene/program.h"
 
-#define STANDS 1e-4 /* a light's error that the camera's motion may leave, over its distance */
+#define STANDS 1e-4 /* tolerance for a light that the camera's motion leaves in place, relative to its distance */
 
 static void mix(float *base, const float *other, size_t n, float share)
 {
@@ -29,7 +29,7 @@ static uint64_t pair_of(uint32_t base, uint32_t other)
 	return ((uint64_t)base << 32 | other) + 1;
 }
 
-/* 1, and *number, where a pair is mixed already. */
+/* 1 if a pair is mixed already. @param number  receives its number */
 static int is_known(const struct table *known, uint32_t base, uint32_t other, uint32_t *number)
 {
 	const uintptr_t found = (uintptr_t)table_find(known, pair_of(base, other));
@@ -45,14 +45,14 @@ static uint32_t note(struct table *known, uint32_t base, uint32_t other, uint32_
 
 /* --- Programs ---------------------------------------------------------------------------------------------------- */
 
-/* Words in front of its constants. */
+/* The words before a program's constants. */
 static size_t code_words(const struct scene_program *p)
 {
 	return (sizeof(*p) + p->n_instructions * sizeof(struct scene_instruction) +
 	        p->n_lights * sizeof(struct scene_program_light)) / sizeof(uint32_t);
 }
 
-/* Programs with the same code get mixed constants. base, other: as materials name them */
+/* Mix the constants of programs with the same code. @param base, other  as in materials */
 static uint32_t mix_program(struct mixer *m, uint32_t base, uint32_t other)
 {
 	const struct scene_program *a = scene_program_of(m->base, base), *b = scene_program_of(m->other, other);
@@ -100,7 +100,7 @@ static void place_light(const struct mixer *m, struct scene_light *out, const st
 		out->position_eye[k] = (float)moved[k];
 }
 
-/* Mix lights, if the same ones shine in both. @return 0 or ERR_SYSTEM (reported) */
+/* Mix lights if the same ones are on in both. @return 0 or ERR_SYSTEM (reported) */
 static int mix_lights(struct mixer *m, struct scene_material *out, const struct scene_material *other)
 {
 	struct scene *s = m->out;
@@ -119,8 +119,9 @@ static int mix_lights(struct mixer *m, struct scene_material *out, const struct 
 
 		*a = s->lights[out->light_first + i];
 		place_light(m, a, b);
-		mix(a->ambient, b->ambient, 12, m->share); /* diffuse and specular follow */
-		mix(a->spot_direction_eye, b->spot_direction_eye, 8, m->share); /* exponent, cutoff, attenuation follow */
+		mix(a->ambient, b->ambient, 12, m->share); /* diffuse and specular included */
+		mix(a->spot_direction_eye, b->spot_direction_eye, 8, m->share); /* exponent, cutoff and attenuation
+		                                                                   included */
 	}
 	out->light_first = first;
 	s->n_lights += out->light_count;
@@ -164,7 +165,7 @@ static void mix_numbers(struct scene_material *out, const struct scene_material 
 	mix(out->front.ambient, other->front.ambient, face, share);
 	mix(out->back.ambient, other->back.ambient, face, share);
 	if (out->fog && other->fog && out->fog_mode == other->fog_mode)
-		mix(&out->fog_density, &other->fog_density, 7, share); /* start, end and colour follow */
+		mix(&out->fog_density, &other->fog_density, 7, share); /* start, end and colour included */
 	if (out->clip_plane_mask == other->clip_plane_mask)
 		mix(out->clip_plane_eye[0], other->clip_plane_eye[0], sizeof(out->clip_plane_eye) / sizeof(float), share);
 	mix(&out->line_width, &other->line_width, 1, share);
@@ -209,7 +210,7 @@ uint32_t mixed_current(struct mixer *m, uint32_t base, uint32_t other)
 	return note(&m->currents, base, other, number);
 }
 
-/* A projection may hold a camera's motion, and a zoom. */
+/* Mix projections, which may contain a motion of the camera, and a zoom. */
 static void mix_projection(const struct mixer *m, float out[16], const float first[16], const float second[16])
 {
 	double a[16], b[16], back[16], motion[16], part[16], mixed[16];
@@ -279,7 +280,7 @@ int mixed_suits(const struct scene_mesh *a, const struct scene_mesh *b)
 	return 1;
 }
 
-/* Memory that lives as long as the scene; NULL (reported) */
+/* Memory with the scene's lifetime; NULL (reported) */
 static void *keep(struct mixer *m, size_t bytes)
 {
 	void *kept;
@@ -311,7 +312,7 @@ static int mix_attribute(struct mixer *m, const float **out, const float *other,
 	return 0;
 }
 
-/* Mixed normals are as long as the mix of lengths: light counts on it. */
+/* Mix normals; their lengths are the mix of lengths, since lighting depends on them. */
 static int mix_normals(struct mixer *m, const float **out, const float *other, size_t n)
 {
 	const float *base = *out;

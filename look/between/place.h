@@ -1,4 +1,4 @@
-/* A draw's place: the box about its mesh, in eye space. */
+/* The place of a draw: the box around its mesh, in eye space. */
 #pragma once
 
 #include "scene/scene.h"
@@ -8,8 +8,11 @@ struct place {
 	double size;         /* the longest diagonal; more than 0 */
 };
 
-/** box: of the mesh, [low, high]. motion: takes it to another eye space, or NULL */
+/**
+ * @param box     of the mesh, [low, high]
+ * @param motion  takes the draw to another eye space, or NULL
+ */
 void place_find(const struct scene_instance *in, const float box[2][3], const double *motion, struct place *out);
 
-/** The way of the corner that is farthest from its like. */
+/** The distance between corresponding corners, for the pair that is farthest apart. */
 double place_way(const struct place *a, const struct place *b);

@@ -5,10 +5,10 @@
 
 #include "look/matrix.h"
 
-#define MOST_STEPS 64 /* the polar decomposition takes about ten */
-#define AFFINE 1e-6   /* how far the last row may be off, of its last number */
+#define MOST_STEPS 64 /* the polar decomposition needs about ten */
+#define AFFINE 1e-6   /* tolerance for the last row, relative to its last number */
 
-/* A turn by `angle`, 0 to pi, about a unit vector. */
+/* A rotation by `angle`, 0 to pi, about a unit vector. */
 struct turn {
 	double axis[3], angle;
 };
@@ -27,7 +27,7 @@ static void transform3(double out[3], const double m[9], const double v[3])
 		out[r] = m[r] * v[0] + m[3 + r] * v[1] + m[6 + r] * v[2];
 }
 
-/* The transposed inverse. @return the determinant; where it is 0, out is undefined */
+/* The inverse transpose. @return the determinant; if it is 0, out is undefined */
 static double cofactors(double out[9], const double m[9])
 {
 	double determinant;
@@ -44,8 +44,8 @@ static double cofactors(double out[9], const double m[9])
 	return determinant;
 }
 
-/* The rotation nearest to a matrix, by Newton's iteration (Higham, Computing the polar decomposition, 1986). @return 0:
- * the matrix flattens or mirrors */
+/* The rotation nearest to a matrix, by Newton's iteration (Higham, "Computing the Polar Decomposition", 1986).
+ * @return 0: the matrix flattens or mirrors */
 static int nearest_rotation(double out[9], const double m[9])
 {
 	double change = INFINITY;
@@ -67,7 +67,7 @@ static int nearest_rotation(double out[9], const double m[9])
 	return change <= 1e-10;
 }
 
-/* By way of the unit quaternion, from the largest of its four numbers. */
+/* Uses the unit quaternion, starting from the largest of its four numbers. */
 static struct turn turn_of(const double r[9])
 {
 	const double squares[4] = { 1 + r[0] + r[4] + r[8], 1 + r[0] - r[4] - r[8], 1 - r[0] + r[4] - r[8],
@@ -113,7 +113,7 @@ static void rotation(double out[9], const struct turn *t, double angle)
 	about(out, t->axis, 1, sin(angle), 1 - cos(angle));
 }
 
-/* A body's way if it slides by v while it turns. */
+/* The translation of a body that slides by v while it turns. */
 static void slide(double out[3], const struct turn *t, double angle, const double v[3])
 {
 	double m[9];
@@ -123,7 +123,7 @@ static void slide(double out[3], const struct turn *t, double angle, const doubl
 	transform3(out, m, v);
 }
 
-/* The inverse of that. */
+/* The inverse of slide. */
 static void unslide(double out[3], const struct turn *t, const double v[3])
 {
 	const double half = t->angle / 2;

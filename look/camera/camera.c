@@ -49,7 +49,7 @@ static int is_word(const char *value, const char *one, const char *other)
 	return !value || strcmp(value, one) == 0 || strcmp(value, other) == 0;
 }
 
-/* n numbers, each between two bounds. */
+/* Check that n numbers are between two bounds. */
 static int check_numbers(const char *path, const char *key, const float *values, int n, float least, float most)
 {
 	for (int i = 0; values && i < n; i++)
@@ -120,7 +120,7 @@ static int check_kind(const char *path, const struct camera_keys *k)
 	return 0;
 }
 
-/* What only cameras of look/camera/lens.h have. */
+/* Check the keys that only cameras of look/camera/lens.h use. */
 static int check_lens(const char *path, const struct camera_keys *k)
 {
 	int err = check_numbers(path, "aperture", k->aperture, 1, 0, 1e30f);

@@ -61,14 +61,14 @@
 
 #include <stdint.h>
 
-/* Pointers are NULL for keys that the file does not have. */
+/* Pointers are NULL for missing keys. */
 struct camera_turntable {
 	const float *about, *degrees;
 	const uint32_t *frames;
 };
 
 struct camera {
-	const char *path; /* of the file, for messages; borrowed */
+	const char *path; /* the file's name, for messages; borrowed */
 	struct camera_keys {
 		const char *kind, *space;
 		const float *place, *look_at, *up, *field_of_view, *height, *near, *far, *aperture, *focus, *eyes, *converge;
@@ -83,11 +83,14 @@ enum { CAMERA_MOST_SIZE = 16384, CAMERA_MOST_PICTURES = 100000 };
 int camera_load(const char *path, struct camera **out);
 void camera_free(struct camera **camera);
 
-/** Pictures of a turntable; 0: there is none, and each recorded frame becomes one. @param camera  NULL: none */
+/**
+ * The number of pictures of a turntable; 0: there is none, and each recorded frame gives one picture. @param camera
+ * NULL: none
+ */
 uint32_t camera_pictures(const struct camera *camera);
 
-/** 1 where a file gives its camera this kind. */
+/** 1 if a file specifies this kind. */
 int camera_is_kind(const struct camera_keys *keys, const char *kind);
 
-/** 1 where places are those of the world. */
+/** 1 if positions are in world space. */
 int camera_is_in_world(const struct camera *camera);

@@ -15,17 +15,17 @@
 #include "scene/box.h"
 #include "scene/skies.h"
 
-/* Of a sky's box: how far from its middle the viewer may be, and how flat it may be. */
+/* Limits for a sky's box: the viewer's distance from its middle, and its flatness. */
 #define AMID 0.05f
 #define THICK 0.125f
 
-/* A scene on its way. */
+/* A scene being made. */
 struct making {
 	const struct scene *scene;
 	struct scene *out;
 	struct viewpoint viewpoint;
 	uint8_t *skies;        /* [instances] */
-	uint32_t *kept_before; /* [instances + 1]: how many of those before stay */
+	uint32_t *kept_before; /* [instances + 1]: the number of earlier instances that stay */
 	uint32_t without;
 };
 
@@ -41,7 +41,7 @@ static int shows_as_much(const struct making *m, const struct scene_view *view)
 	return 1;
 }
 
-/* 1 where a view looks at the world: as the main one does, whatever its depths. */
+/* 1 if a view shows the world: like the main view, apart from depth ranges. */
 static int is_of_world(const struct making *m, const struct scene_view *view)
 {
 	const struct scene_view *main_view = &m->scene->views[m->viewpoint.main_view];
@@ -50,8 +50,7 @@ static int is_of_world(const struct making *m, const struct scene_view *view)
 	       (!m->viewpoint.was_parallel || shows_as_much(m, view));
 }
 
-/* 1 where a box is no flat one, and has the viewer in its middle along two axes at least, as a box or dome around him
- * has. */
+/* 1 if a box is not flat and the viewer is in its middle along at least two axes, as inside a sky box or dome. */
 static int is_around(const float low[3], const float high[3], const float viewer[3])
 {
 	float least = INFINITY, most = 0;
@@ -68,8 +67,8 @@ static int is_around(const float low[3], const float high[3], const float viewer
 }
 
 /*
- * What is drawn as skies are, all together that comes with the same modelview, is one where it surrounds the viewer.
- * What else is drawn without depth, as a ground, is part of the world.
+ * Find skies. Draws that resemble skies and share a modelview form a sky if together they surround the viewer. Other
+ * draws without depth, such as a ground, belong to the world.
  */
 static int find_skies(struct making *m)
 {
@@ -99,7 +98,7 @@ static int find_skies(struct making *m)
 	return 0;
 }
 
-/* What becomes of a draw. */
+/* How a draw is treated. */
 enum fate { LEFT_OUT, STAYS, MOVES, TURNS };
 
 static enum fate fate_of(struct making *m, uint32_t i, uint32_t first_of_world)
@@ -151,13 +150,13 @@ static int copy_scene(struct making *m)
 	return programs_copy(s, out);
 }
 
-/* A whole number of pixels. */
+/* Round to a whole number of pixels. */
 static int32_t pixels(float x)
 {
 	return (int32_t)floorf(x + 0.5f);
 }
 
-/* The part of the window in which the world was shown. */
+/* The part of the window that showed the world. */
 static void shown_rectangle(const struct scene *s, const struct scene_view *view, int32_t out[4])
 {
 	const int32_t left = pixels(view->viewport[0]), low = pixels(view->viewport[1]);
@@ -175,7 +174,7 @@ static int holds(const int32_t outer[4], const int32_t inner[4])
 	       outer[1] + outer[3] >= inner[1] + inner[3];
 }
 
-/* shown: of the recorded window */
+/* @param shown  in the recorded window */
 static void set_view(const struct making *m, struct scene_view *view, const int32_t shown[4])
 {
 	const uint32_t *size = m->viewpoint.keys->size;
@@ -223,7 +222,7 @@ static void move_state(const struct making *m)
 	mat4_turn(out->dome.up_eye, v->camera_from_eye, out->dome.up_eye);
 }
 
-/* Draws that are seen from there, in their order. */
+/* Move the draws that are visible from the camera, in their order. */
 static int move_draws(struct making *m)
 {
 	const struct scene *s = m->scene;
@@ -254,7 +253,7 @@ static int move_draws(struct making *m)
 	return err;
 }
 
-/* Clears of all that the world was shown in; and one of depth where the frame begins with none. */
+/* Keep the clears of everything that showed the world, and clear depth if the frame starts without doing so. */
 static void set_clears(const struct making *m, const int32_t shown[4])
 {
 	const struct scene *s = m->scene;

@@ -8,8 +8,8 @@
 
 #define HEAD "struct relume_ray ray_generation(struct relume_pixel pixel, struct relume_parameters parameters)\n"
 
-/* x and y by equal angles. With two eyes the left one's picture is above the right one's, and eyes are on a circle, to
- * both sides of where each column looks (Ishiguro, Yamamoto and Tsuji 1992, "Omni-Directional Stereo"). */
+/* x and y by equal angles. With two eyes, the left one's picture is above the right one's, and the eyes are on a
+ * circle, on both sides of each column's direction (Ishiguro, Yamamoto and Tsuji 1992, "Omni-Directional Stereo"). */
 static const char panorama[] =
 	HEAD "{\n"
 	"	const float rows = EYES > 0.0f ? 0.5f * pixel.height : pixel.height;\n"
@@ -23,7 +23,7 @@ static const char panorama[] =
 	"	return ray;\n"
 	"}\n";
 
-/* Two eyes that look the same way, their windows shifted so that both show the same at a distance. */
+/* Two eyes that look in the same direction, with windows shifted to coincide at a distance. */
 static const char stereo[] =
 	HEAD "{\n"
 	"	const float columns = 0.5f * pixel.width;\n"
@@ -37,7 +37,8 @@ static const char stereo[] =
 	"	return ray;\n"
 	"}\n";
 
-/* Left, front, right; below them down, back, up: down's upper and up's lower edge meet the front. */
+/* Left, front, right, and below them down, back, up. The upper edge of down and the lower edge of up adjoin the
+ * front. */
 static const char cube[] =
 	HEAD "{\n"
 	"	const float width = pixel.width / 3.0f, height = 0.5f * pixel.height;\n"
@@ -56,7 +57,8 @@ static const char cube[] =
 	"	return ray;\n"
 	"}\n";
 
-/* A thin lens: from a place on it through the point that the pinhole's ray meets at the distance that is sharp. */
+/* A thin lens: rays start at a point on it and pass through the point where the pinhole's ray meets the plane in
+ * focus. */
 static const char thin[] =
 	HEAD "{\n"
 	"	const float4 sharp = pixel.ray.origin + pixel.ray.direction * ((FOCUS + pixel.ray.origin.z) /\n"

@@ -11,8 +11,8 @@
 enum {
 	COLUMNS = 5,
 	MOVING = COLUMNS
-}; /* of the function, the last one added as it is; instructions: one for each of the others, and one that sets the
-      position */
+}; /* numbers of the function, the last of them constant; instructions: one for each other number, and one that sets
+      the position */
 
 static const struct scene_program *program_of(const struct scene *s, const struct scene_instance *in)
 {
@@ -28,8 +28,8 @@ int programs_place(const struct scene *s, const struct scene_instance *in)
 	return p && p->outputs >> SCENE_RESULT_POSITION & 1;
 }
 
-/* Eye positions as the vertex stage has them of clip positions (kernels/gl/vertex_program.h): eye = columns . (x, y, z,
- * w, 1). @return 0: there are none */
+/* Eye positions as a function of clip positions, as in the vertex stage (kernels/gl/vertex_program.h): eye = columns
+ * . (x, y, z, w, 1). @return 0: there is none */
 static int find_eye(const struct scene_view *view, float eye[COLUMNS][4])
 {
 	const float *m = view->projection;
@@ -43,7 +43,7 @@ static int find_eye(const struct scene_view *view, float eye[COLUMNS][4])
 			memcpy(eye[c], inverse + 4 * c, sizeof(eye[c]));
 		return 1;
 	}
-	/* Rows x, y and w alone, with the fourth number 1: depth has no part in it. */
+	/* rows x, y and w alone, with 1 as the fourth number; depth plays no part */
 	for (int c = 0; c < 4; c++) {
 		across[4 * c] = m[4 * c];
 		across[4 * c + 1] = m[4 * c + 1];
@@ -78,7 +78,7 @@ int programs_copy(const struct scene *s, struct scene *out)
 	return 0;
 }
 
-/* position = sum of column c times the position's number c; computed beside it, in four registers of its own */
+/* position = sum of column c times the position's number c, computed separately, in four extra registers */
 static void write_moving(const struct scene_program *was, struct scene_instruction out[MOVING])
 {
 	const uint32_t own = was->n_registers, first = SCENE_PROGRAM_CONSTANT + was->n_constants;

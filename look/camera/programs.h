@@ -1,22 +1,23 @@
-/* Vertices that programs place (scene/program.h), moved: clip positions, seen from elsewhere, are an affine function of
- * what programs made. */
+/* Moves vertices that programs place (scene/program.h): clip positions seen from another camera are an affine
+ * function of the program's output. */
 #pragma once
 
 #include "scene/scene.h"
 
-/** 1 where a program says where the vertices of a draw are. */
+/** 1 if a program places the vertices of a draw. */
 int programs_place(const struct scene *scene, const struct scene_instance *instance);
 
-/** 1 where such a program can be told from its view's projection how it sees, and has room for what moves it. */
+/** 1 if a view's projection determines how such a program sees, and the program has room for the instructions that
+ * move its vertices. */
 int programs_can_move(const struct scene *scene, const struct scene_instance *instance);
 
-/** Give a scene's copy programs of its own. @return 0 or ERR_SYSTEM (reported) */
+/** Give a copy of a scene its own programs. @return 0 or ERR_SYSTEM (reported) */
 int programs_copy(const struct scene *scene, struct scene *out);
 
 /**
- * Move one draw: it gets a program, and a material, of its own.
+ * Move one draw, which gets a program and a material of its own.
  * @param instance    of the scene
- * @param moved       the new eye space from the scene's
+ * @param moved       from the scene's eye space to the new one
  * @param projection  the new one
  * @param out         with room for one more material
  * @param to          the draw in `out`

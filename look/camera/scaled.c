@@ -12,15 +12,16 @@
 #include "scene/backdrop.h"
 #include "scene/program.h"
 
-#define COVERS 0.999f /* a quad that reaches this far, from the middle to the window's edges, covers all */
+#define COVERS 0.999f /* a quad that reaches this far from the middle to the window's edges covers all of it */
 
 struct scaling {
 	const struct scene *from;
 	struct scaled *out;
 	float factor;
-	float by[2];    /* pixels of the new window for one of the old one; nearly the factor, so that whole is whole */
-	float shift[2]; /* where the old window's picture begins in the new one, pixels */
-	float share[2]; /* its width and height over the new window's; 1: all */
+	float by[2];    /* pixels of the new window for one of the old window; nearly the factor, so that whole
+	                   numbers stay whole */
+	float shift[2]; /* position of the old window's picture in the new window, pixels */
+	float share[2]; /* width and height of the old picture, relative to the new window; 1: all */
 };
 
 static int32_t edge(float at)
@@ -28,7 +29,7 @@ static int32_t edge(float at)
 	return (int32_t)lrintf(at);
 }
 
-/* Edges go to the nearest pixel's, so that parts that met still meet. */
+/* Round edges to the nearest pixel, so that adjacent parts stay adjacent. */
 static void scale_part(const struct scaling *a, int32_t part[4])
 {
 	const int32_t whole[4] = { 0, 0, (int32_t)a->out->scene.width, (int32_t)a->out->scene.height };
@@ -57,7 +58,7 @@ static int is_of_another_shape(const struct scaling *a)
 	return a->share[0] * a->share[1] < 1;
 }
 
-/* placed: 1: programs place what it shows. */
+/* @param placed  1: programs place what it shows */
 static void scale_view(const struct scaling *a, struct scene_view *view, int placed)
 {
 	const int widens = shows_window(a->from, view) && !placed;
@@ -76,7 +77,7 @@ static void scale_view(const struct scaling *a, struct scene_view *view, int pla
 	}
 }
 
-/* 1 where a draw is a quad over all of the recorded window, in parallel projection. */
+/* 1 if a draw is a quad over the whole recorded window, in parallel projection. */
 static int covers_window(const struct scene *s, const struct scene_instance *in)
 {
 	const struct scene_view *view = &s->views[in->view];
@@ -99,7 +100,8 @@ static int covers_window(const struct scene *s, const struct scene_instance *in)
 	return low[0] <= -COVERS && low[1] <= -COVERS && high[0] >= COVERS && high[1] >= COVERS;
 }
 
-/* A second view for each, which spreads the recorded one over all of the new window, for quads that cover the old. */
+/* Add a second view for each, which stretches the recorded window over the whole new one, for quads that cover the
+ * old one. */
 static void spread_views(const struct scaling *a)
 {
 	struct scene *s = &a->out->scene;
@@ -117,7 +119,7 @@ static void spread_views(const struct scaling *a)
 			s->instances[i].view += n;
 }
 
-/* placed: [n_views], all 0 */
+/* @param placed  [n_views], all 0 */
 static void scale_views(const struct scaling *a, uint8_t *placed)
 {
 	struct scene *s = &a->out->scene;
@@ -156,7 +158,7 @@ static void scale_material(const struct scaling *a, struct scene_material *m)
 	a->out->programs += (uint32_t)looks_at_window(a->from, m);
 }
 
-/* The one point that a rectangle of pixels begins at, in the new window's coordinates. */
+/* Place the point where a rectangle of pixels starts, in the new window's coordinates. */
 static int place_mesh(struct scaling *a, struct scene_instance *in)
 {
 	struct scaled *out = a->out;
@@ -179,7 +181,7 @@ static int place_mesh(struct scaling *a, struct scene_instance *in)
 	return 0;
 }
 
-/* Which of n old pixels is at a new one; the border's beyond it. */
+/* The old pixel, of n, at a new one; beyond the border, the border's. */
 static size_t old_place(const struct scaling *a, int axis, uint32_t at, uint32_t n)
 {
 	const float old = floorf(((float)at + 0.5f - a->shift[axis]) / a->by[axis]);
@@ -187,7 +189,7 @@ static size_t old_place(const struct scaling *a, int axis, uint32_t at, uint32_t
 	return (size_t)fminf(fmaxf(old, 0), (float)(n - 1));
 }
 
-/* Each pixel of what was there before becomes several. */
+/* Enlarge each pixel of the earlier picture. */
 static int scale_start(const struct scaling *a, const struct scene_picture *from)
 {
 	struct scene *s = &a->out->scene;
@@ -233,7 +235,7 @@ static int copy_scene(const struct scaling *a)
 
 	*out = *s;
 	out->release = NULL;
-	out->serial = ~s->serial; /* pictures of the one are none of the other */
+	out->serial = ~s->serial; /* pictures of one are not valid for the other */
 	out->before = NULL;
 	out->instances = copy_of(s->instances, s->n_instances, 0, sizeof(*s->instances));
 	out->materials = copy_of(s->materials, s->n_materials, 0, sizeof(*s->materials));

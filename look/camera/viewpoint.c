@@ -30,7 +30,7 @@ static float length_of(const float v[3])
 	return (float)sqrt((double)v[0] * v[0] + (double)v[1] * v[1] + (double)v[2] * v[2]);
 }
 
-/* @return 0: it has no direction */
+/* @return 0: the vector has no direction */
 static int normalize(float v[3])
 {
 	const float length = length_of(v);
@@ -48,8 +48,8 @@ static void move_place(const float m[16], const float from[3], float out[3])
 	memcpy(out, at, 3 * sizeof(*out));
 }
 
-/* Eye space from that of a camera at a place; and back. @return 0: `up` lies along the line of sight, or there is
- * none */
+/* The transforms between eye space and the space of a camera at a place. @return 0: `up` is parallel to the line of
+ * sight, or one of them is 0 */
 static int stand(const float place[3], const float forward[3], const float up[3], float eye_from[16],
                  float from_eye[16])
 {
@@ -80,7 +80,7 @@ static int stand(const float place[3], const float forward[3], const float up[3]
 
 /* --- The recorded camera ----------------------------------------------------------------------------------------- */
 
-/* The view through which most triangles that have depth are seen, of those that are of any use. */
+/* Find the view that shows the most triangles with depth, among those that are usable. */
 static uint32_t find_main_view(const struct scene *s)
 {
 	uint32_t best = SCENE_NONE;
@@ -104,14 +104,14 @@ static uint32_t find_main_view(const struct scene *s)
 	return best;
 }
 
-/* 1 where a projection has its viewer at the origin, who looks along -z. */
+/* 1 if a projection's viewer is at the origin and looks along -z. */
 static int is_plain(const float m[16])
 {
 	return m[1] == 0 && m[2] == 0 && m[3] == 0 && m[4] == 0 && m[6] == 0 && m[7] == 0 &&
 	       (m[11] < 0 ? m[15] == 0 && m[12] == 0 && m[13] == 0 : m[11] == 0);
 }
 
-/* The place that is shown at x, y of the clip cube, at its near (-1) or far side. */
+/* The point shown at x, y of the clip cube, on its near (-1) or far side. */
 static void shown_at(const float inverse[16], float x, float y, float z, float out[3])
 {
 	float at[4];
@@ -133,14 +133,14 @@ static void find_recorded(const struct scene_view *view, float eye_from_recorded
 	shown_at(inverse, 0, 1, -1, above);
 	subtract(far, near, forward);
 	subtract(above, near, up);
-	mat4_transform(center, inverse, (const float[4]){ 0, 0, 1, 0 }); /* all lines of sight meet there */
+	mat4_transform(center, inverse, (const float[4]){ 0, 0, 1, 0 }); /* the point where all lines of sight meet */
 	for (int k = 0; k < 3 && !drawn_in_parallel(view); k++)
 		near[k] = center[k] / center[3];
 	if (!isfinite(near[0] + near[1] + near[2]) || !stand(near, forward, up, eye_from_recorded, from_eye))
 		memcpy(eye_from_recorded, mat4_identity, 16 * sizeof(*eye_from_recorded));
 }
 
-/* A view's projection of the recorded camera's own space, as one of -z. */
+/* The projection of a view in the recorded camera's own space, which looks along -z. */
 static void project_recorded(const struct viewpoint *v, const struct scene_view *view, float out[16])
 {
 	mat4_mul(out, view->projection, v->eye_from_recorded);
@@ -150,7 +150,7 @@ static void project_recorded(const struct viewpoint *v, const struct scene_view 
 	out[11] = out[11] < 0 ? -1 : out[11];
 }
 
-/* The middle of what the frame shows: of the box of all vertices in view, in eye space. */
+/* Find the middle of the visible part of the frame: of the box around all visible vertices, in eye space. */
 static void find_middle(const struct scene *s, const struct viewpoint *v, float out[3])
 {
 	float low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
@@ -180,8 +180,7 @@ static void find_middle(const struct scene *s, const struct viewpoint *v, float 
 
 /* --- Where it stands --------------------------------------------------------------------------------------------- */
 
-/* Where the camera is and what it looks at, in eye space. space: eye space from the one in which the file has its
- * places */
+/* The camera's position and target in eye space. */
 struct stance {
 	float place[3], at[3], up[3];
 };
@@ -223,7 +222,7 @@ static void find_stance(const struct camera *camera, const float space[16], cons
 		go_around(camera, number, out);
 }
 
-/* How far off what is looked at is. */
+/* The distance to the target. */
 static float find_distance(const struct camera_keys *k, const struct stance *s, const float middle[3])
 {
 	float to[3], forward[3], along = 0;
@@ -295,7 +294,7 @@ int viewpoint_find(const struct camera *camera, const struct look *look, const s
 
 /* --- What it projects -------------------------------------------------------------------------------------------- */
 
-/* Rows x and y. recorded: project_recorded of the view */
+/* Set rows x and y. @param recorded  project_recorded of the view */
 static void project_across(const struct viewpoint *v, const struct scene *scene, const float recorded[16],
                            float out[16])
 {
@@ -325,7 +324,8 @@ static void project_across(const struct viewpoint *v, const struct scene *scene,
 	out[5] = up;
 }
 
-/* Between which depths what the view showed lies, seen from here. far: infinite where the view had no end */
+/* Find the range of depths that contains what the view showed, as seen from here. @param far  infinite if the view
+ * had no end */
 static void find_depths(const struct viewpoint *v, const float recorded[16], float *near, float *far)
 {
 	float inverse[16], camera_from_recorded[16];
@@ -342,7 +342,7 @@ static void find_depths(const struct viewpoint *v, const float recorded[16], flo
 		*near = fminf(*near, -at[2]);
 		*far = fmaxf(*far, -at[2]);
 	}
-	if (!v->was_parallel) { /* as far on the other sides as the program saw on its own */
+	if (!v->was_parallel) { /* extend to the sides as far as the program saw forwards */
 		*near = recorded[14] / (recorded[10] - 1);
 		*far = is_endless ? INFINITY : fmaxf(*far, recorded[14] / (recorded[10] + 1));
 	}
@@ -354,7 +354,7 @@ static void find_depths(const struct viewpoint *v, const float recorded[16], flo
 	}
 }
 
-/* Row z, and w. */
+/* Set rows z and w. */
 static void project_along(const struct viewpoint *v, const float recorded[16], float out[16])
 {
 	float near, far;
@@ -362,7 +362,7 @@ static void project_along(const struct viewpoint *v, const float recorded[16], f
 	find_depths(v, recorded, &near, &far);
 	near = v->keys->near ? *v->keys->near : near;
 	far = v->keys->far ? *v->keys->far : far;
-	if (!(far > near)) /* one of them is the file's */
+	if (!(far > near)) /* one of them is from the file */
 		near = v->keys->far ? v->is_parallel ? far - 1 : 0.5f * far : near;
 	if (!(far > near))
 		far = v->is_parallel ? near + 1 : 2 * near;
