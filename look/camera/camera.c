@@ -72,7 +72,7 @@ static int check_turntable(const char *path, const struct camera_keys *k)
 	if (!err)
 		err = check_numbers(path, "turntable: degrees", t->degrees, 1, -1e6f, 1e6f);
 	if (!err && k->look_at)
-		err = err_report(ERR_INPUT, path, "look_at: a turntable looks at what it goes around (about)");
+		err = err_report(ERR_INPUT, path, "look_at cannot be used with turntable, which looks at 'about'");
 	if (!err && t->frames && (!*t->frames || *t->frames > CAMERA_MOST_PICTURES))
 		err = err_report(ERR_INPUT, path, "turntable: frames is %u; it must be between 1 and %d", *t->frames,
 		                 CAMERA_MOST_PICTURES);
@@ -88,9 +88,9 @@ static int check_places(const char *path, const struct camera_keys *k)
 	if (!err)
 		err = check_numbers(path, "up", k->up, 3, -1e30f, 1e30f);
 	if (!err && k->up && is_zero(k->up))
-		err = err_report(ERR_INPUT, path, "up is no direction");
+		err = err_report(ERR_INPUT, path, "up must not be 0 0 0");
 	if (!err && k->place && k->look_at && memcmp(k->place, k->look_at, 3 * sizeof(*k->place)) == 0)
-		err = err_report(ERR_INPUT, path, "look_at is the camera's own place");
+		err = err_report(ERR_INPUT, path, "look_at must differ from place");
 	return err;
 }
 
@@ -107,16 +107,14 @@ static int check_kind(const char *path, const struct camera_keys *k)
 	for (size_t i = 0; i < sizeof(kinds) / sizeof(kinds[0]) && !known; i++)
 		known = camera_is_kind(k, kinds[i]);
 	if (!known)
-		return err_report(ERR_INPUT, path, "kind is pinhole, orthographic, panorama, cube or stereo, not '%s'",
+		return err_report(ERR_INPUT, path, "kind must be pinhole, orthographic, panorama, cube or stereo, not '%s'",
 		                  k->kind);
 	if (k->field_of_view && k->height)
-		return err_report(
-			ERR_INPUT, path,
-			"field_of_view is for a pinhole, height for an orthographic view; there is one of them");
+		return err_report(ERR_INPUT, path, "field_of_view and height cannot be used together");
 	if (k->field_of_view && k->kind && !camera_is_kind(k, "pinhole") && !camera_is_kind(k, "stereo"))
-		return err_report(ERR_INPUT, path, "field_of_view is not for kind %s", k->kind);
+		return err_report(ERR_INPUT, path, "field_of_view cannot be used with kind %s", k->kind);
 	if (k->height && k->kind && !camera_is_kind(k, "orthographic"))
-		return err_report(ERR_INPUT, path, "height is not for kind %s", k->kind);
+		return err_report(ERR_INPUT, path, "height cannot be used with kind %s", k->kind);
 	return 0;
 }
 
@@ -132,15 +130,15 @@ static int check_lens(const char *path, const struct camera_keys *k)
 	if (!err)
 		err = check_numbers(path, "converge", k->converge, 1, 1e-30f, 1e30f);
 	if (!err && !k->aperture != !k->focus)
-		err = err_report(ERR_INPUT, path, "aperture and focus belong together; there is one of them");
+		err = err_report(ERR_INPUT, path, "aperture and focus need each other; one of them is missing");
 	if (!err && k->aperture && ((k->kind && !camera_is_kind(k, "pinhole")) || k->height))
-		err = err_report(ERR_INPUT, path, "aperture is for a pinhole");
+		err = err_report(ERR_INPUT, path, "aperture needs kind pinhole");
 	if (!err && k->eyes && !camera_is_kind(k, "stereo") && !camera_is_kind(k, "panorama"))
-		err = err_report(ERR_INPUT, path, "eyes are for kinds stereo and panorama");
+		err = err_report(ERR_INPUT, path, "eyes needs kind stereo or panorama");
 	if (!err && k->converge && !camera_is_kind(k, "stereo"))
-		err = err_report(ERR_INPUT, path, "converge is for kind stereo");
+		err = err_report(ERR_INPUT, path, "converge needs kind stereo");
 	return !err && camera_is_kind(k, "stereo") && !k->eyes ?
-	               err_report(ERR_INPUT, path, "stereo needs eyes: the distance between them") :
+	               err_report(ERR_INPUT, path, "kind stereo needs eyes, the distance between them") :
 	               err;
 }
 
@@ -153,7 +151,7 @@ static int check_all(const char *path, const struct camera_keys *k)
 	if (!err)
 		err = check_lens(path, k);
 	if (!err && !is_word(k->space, "eye", "world"))
-		err = err_report(ERR_INPUT, path, "space is eye or world, not '%s'", k->space);
+		err = err_report(ERR_INPUT, path, "space must be eye or world, not '%s'", k->space);
 	if (!err)
 		err = check_numbers(path, "field_of_view", k->field_of_view, 1, 0.01f, 179);
 	if (!err)
@@ -163,7 +161,7 @@ static int check_all(const char *path, const struct camera_keys *k)
 	if (!err)
 		err = check_numbers(path, "far", k->far, 1, -1e30f, 1e30f);
 	if (!err && k->near && k->far && !(*k->near < *k->far))
-		err = err_report(ERR_INPUT, path, "near is %g, and far %g; it must be farther", (double)*k->near, (double)*k->far);
+		err = err_report(ERR_INPUT, path, "near is %g but far is %g; far must be larger", (double)*k->near, (double)*k->far);
 	for (int i = 0; i < 2 && !err && k->size; i++)
 		if (!k->size[i] || k->size[i] > CAMERA_MOST_SIZE)
 			err = err_report(ERR_INPUT, path, "size is %u x %u; each must be between 1 and %d", k->size[0],

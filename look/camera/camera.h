@@ -1,42 +1,43 @@
 /*
- * A camera for a recorded frame: relume render --camera FILE. Lights and all things stay where they are; HUDs are
- * left out. Every key may be left out. An unknown key is an error, reported with its line.
+ * A camera for a recorded frame: relume render --camera FILE. Everything, lights included, stays where it is; HUDs are
+ * left out. All keys are optional. An unknown key is an error, reported with its line.
  *
  * KEYS
  *     kind: pinhole               # default: the program's own projection. Others: orthographic; panorama (360 by
  *                                 # 180 degrees, by equal angles); cube (left, front, right, and below them down,
- *                                 # back, up); stereo (two eyes side by side). The last three, and aperture, are for
- *                                 # modes whitted and path
- *     space: eye                  # the space of places and directions below. eye: the recorded camera's, which
- *                                 # stands at 0 0 0 and looks along -z, y up. world: the space that the list `world`
- *                                 # of a look file describes ('relume help look-file'). Default eye
- *     place: [0, 0, 0]            # where the camera stands; default: the recorded camera's place
- *     look_at: [0, 0, -1]         # what it looks at; default: what the recorded camera looks at
- *     up: [0, 1, 0]               # which way is up; default: y
- *     field_of_view: 45           # for a pinhole: degrees from top to bottom; of stereo, default 60
- *     height: 10                  # for an orthographic view: units from top to bottom
- *     aperture: 0.1               # of a pinhole: its radius, in units; blurs what is not in focus (--samples 64)
- *     focus: 10                   # with aperture: how far off things are sharp
- *     eyes: 0.06                  # of stereo, between both eyes, in units. Of a panorama: the left eye's above the
- *                                 # right eye's; default 0: one eye
- *     converge: 10                # of stereo: how far off both eyes show the same, at the screen. Default 10
- *     near: 0.1                   # where drawing begins along the line of sight, in units. Default for near and
- *                                 # far: what the program drew, and as much more as the way to the new place needs
- *     far: 100                    # where it ends
+ *                                 # back, up); stereo (two eyes side by side). The last three, and aperture, need
+ *                                 # mode whitted or path
+ *     space: eye                  # the space of the positions and directions below. eye: the recorded camera's, which
+ *                                 # is at 0 0 0 and looks along -z, y up. world: the space that the list `world` of
+ *                                 # a look file describes ('relume help look-file'). Default eye
+ *     place: [0, 0, 0]            # the camera's position; default: the recorded camera's
+ *     look_at: [0, 0, -1]         # the point it looks at; default: as the recorded camera
+ *     up: [0, 1, 0]               # the up direction; default: y
+ *     field_of_view: 45           # for kinds pinhole and stereo: degrees from top to bottom; stereo: default 60
+ *     height: 10                  # for kind orthographic: units from top to bottom
+ *     aperture: 0.1               # for kind pinhole: its radius, in units; blurs things out of focus (--samples 64)
+ *     focus: 10                   # with aperture: the distance in focus
+ *     eyes: 0.06                  # for kind stereo: the distance between the eyes, in units. For kind panorama: makes
+ *                                 # two pictures, the left eye's above the right eye's; default 0: one eye
+ *     converge: 10                # for kind stereo: the distance of the screen, where both eyes show the same.
+ *                                 # Default 10
+ *     near: 0.1                   # nearest distance drawn along the line of sight, in units. Default for near and
+ *                                 # far: the range that the program drew, extended by the distance to the new place
+ *     far: 100                    # farthest distance drawn
  *     size: [640, 480]            # the picture's size in pixels; default: the window's
- *     turntable:                  # makes many pictures of one frame: from its place the camera goes around a point,
+ *     turntable:                  # makes many pictures of one frame: the camera goes from its place around a point,
  *                                 # looking at it, about the axis `up`
- *       about: [0, 0, -5]         # the point; default: the middle of what the frame shows
- *       degrees: 360              # how far; above 0: counterclockwise, seen from above. Default 360
- *       frames: 48                # how many pictures, numbered from 0. Default 48
+ *       about: [0, 0, -5]         # the point; default: the middle of the visible scene
+ *       degrees: 360              # the angle; above 0: counterclockwise, seen from above. Default 360
+ *       frames: 48                # the number of pictures, numbered from 0. Default 48
  *
- * Without kind, field_of_view and height the program's own projection stays. With another kind but neither of the
- * other two, what is looked at (else the middle of what the frame shows) keeps its size.
+ * Without kind, field_of_view and height, the program's own projection stays. With another kind but neither of the
+ * other two, the target of look_at (by default, the middle of the visible scene) keeps its size.
  *
- * Channels P and N of a rendered frame tell where a thing is, and which way is up.
+ * Channels P and N of a rendered frame give the position of a thing, and the direction that is up.
  *
  * EXAMPLES
- *     # turn.yaml: once around the middle of what the frame shows, up as the floor's normal says
+ *     # turn.yaml: once around the middle of the visible scene, with the floor's normal as the up direction
  *     up: [0, 0.9, 0.44]
  *     turntable: { frames: 4 }
  *

@@ -308,7 +308,7 @@ int elsewhere_make(const struct camera *camera, const struct look *look, const s
 	err = viewpoint_find(camera, look, scene, number, &m.viewpoint);
 	if (!err && m.viewpoint.main_view == SCENE_NONE)
 		err = err_report(ERR_INPUT, camera->path,
-		                 "frame %llu shows nothing in space: there is no other place to see it from",
+		                 "frame %llu shows nothing in 3D, so it cannot be seen from another place",
 		                 (unsigned long long)scene->frame);
 	if (!err)
 		err = find_skies(&m);

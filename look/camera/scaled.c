@@ -293,7 +293,7 @@ int scaled_make(const struct scene *scene, float factor, const uint32_t size[2],
 		pixels[k] = given ? (float)size[k] : picture;
 		if (!(picture >= 1) || pixels[k] > (float)SCALED_MOST)
 			return err_report(ERR_INPUT, NULL,
-			                  "frame %llu is %ux%u: by %g it has no pixel, or more than %u on a side",
+			                  "frame %llu is %ux%u: scaled by %g, it has no pixels or more than %u on a side",
 			                  (unsigned long long)scene->frame, scene->width, scene->height,
 			                  (double)a.factor, SCALED_MOST);
 		a.by[k] = picture / old[k];

@@ -245,7 +245,7 @@ static int find_space(const struct camera *camera, const struct look *look, cons
 		return 0;
 	return err_report(
 		ERR_INPUT, camera->path,
-		"frame %llu: space is world, and no mesh of the frame says where that is (--look, list world)",
+		"frame %llu: space is world, but no mesh of the frame is in the list `world` of --look",
 		(unsigned long long)scene->frame);
 }
 
@@ -269,8 +269,8 @@ int viewpoint_find(const struct camera *camera, const struct look *look, const s
 	subtract(stance.at, stance.place, forward);
 	if (!stand(stance.place, forward, stance.up, out->eye_from_camera, out->camera_from_eye))
 		return err_report(ERR_INPUT, camera->path,
-		                  "frame %llu: the camera cannot stand so: up lies along the line of sight, or that "
-		                  "has no length",
+		                  "frame %llu: no such camera: up is parallel to the line of sight, or place and "
+		                  "look_at are the same",
 		                  (unsigned long long)scene->frame);
 	mat4_mul(moved, out->camera_from_eye, out->eye_from_recorded);
 	out->is_moved = memcmp(moved, mat4_identity, sizeof(moved)) != 0;
@@ -288,7 +288,7 @@ int viewpoint_find(const struct camera *camera, const struct look *look, const s
 	out->aspect = k->size ? (float)k->size[0] / (float)k->size[1] :
 	              scene->views[out->main_view].viewport[2] / scene->views[out->main_view].viewport[3];
 	if (k->near && !out->is_parallel && !(*k->near > 0))
-		return err_report(ERR_INPUT, camera->path, "near is %g; a pinhole's must be above 0", (double)*k->near);
+		return err_report(ERR_INPUT, camera->path, "near is %g; for a pinhole, it must be above 0", (double)*k->near);
 	return 0;
 }
 

@@ -112,7 +112,7 @@ for text, options, code, words in ((table, ("-o", SCRATCH / "x.####.exr"), 2, "-
                                    ("place: [0, 0]\n", ("-f", 1, "-o", SCRATCH / "x.exr"), 3,
                                     "line 1"), ("up: [0, 0, 1]\n", ("-f", 1, "-o", SCRATCH / "x.exr"), 5,
                                                 "line of sight"), ("near: -1\n", ("-f", 1, "-o", SCRATCH / "x.exr"), 5,
-                                                                   "a pinhole's must be above 0"),
+                                                                   "for a pinhole, it must be above 0"),
                                    ("place: [0, 0, 1]\n", ("-f", 1, "-o", SCRATCH / "x.exr", "--aov", "motion"), 2,
                                     "no motion")):
     file.write_text(text)
