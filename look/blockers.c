@@ -64,7 +64,7 @@ static void widen(struct box *box, const float low[3], const float high[3])
 	}
 }
 
-/* Corners have four numbers, of which three count: compilers then use one instruction for all four. */
+/* Corners have a fourth number, which is ignored: compilers then use one instruction for all four. */
 OPTIMIZE("O3")
 static struct box box_cluster(const struct scene_mesh *mesh, uint32_t cluster)
 {
@@ -232,7 +232,7 @@ static int may_meet(const struct sight *s, const struct box *box)
 	return !(near > far * 1.001f);
 }
 
-/* --- The same in object space ------------------------------------------------------------------------------------ */
+/* --- Rays, in object space --------------------------------------------------------------------------------------- */
 
 struct line {
 	float from[3], d[3], t_max;

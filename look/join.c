@@ -21,7 +21,7 @@ static int move(void *to, uint32_t *n_to, void *more, uint32_t *n_more, size_t b
 	if (*n_more)
 		memcpy(items + *n_to * bytes, more, *n_more * bytes);
 	*n_to += *n_more;
-	*n_more = 0; /* what remains is an empty array, which is freed later */
+	*n_more = 0; /* an empty array remains, to be freed later */
 	return 0;
 }
 

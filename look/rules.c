@@ -16,7 +16,7 @@
 #include "scene/release.h"
 #include "scene/scene.h"
 
-/* --- Checks that libcyaml does not make -------------------------------------------------------------------------- */
+/* --- Checks beyond libcyaml's ------------------------------------------------------------------------------------ */
 
 static int check_number(const char *path, const char *list, uint32_t rule, const char *key, const float *value,
                         float least, float most)

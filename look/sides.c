@@ -112,7 +112,7 @@ struct sheet {
 	double sum[3], length; /* sums of cross products on the visible side, and of their lengths */
 	double volume;         /* six times the enclosed volume; below 0 if the inside is what is visible */
 	float low[3], high[3];
-	uint32_t behind; /* bits of the lamps to which some triangle turns its hidden side */
+	uint32_t behind; /* triangles that show the side of their winding, the opposite side, or an unknown one */
 	uint32_t as_wound, against, untold; /* triangles whose visible side is the one of their winding, the opposite
 	                                       one, or unknown */
 };

@@ -44,7 +44,7 @@ struct sparing {
 	int more_lamps; /* 1: there are more lamps than out->lamps has room for */
 };
 
-/* --- What is lit ------------------------------------------------------------------------------------------------- */
+/* --- Lit surfaces ------------------------------------------------------------------------------------------------ */
 
 static const struct scene_material *material_of(const struct scene *s, uint32_t i)
 {

@@ -34,7 +34,7 @@ struct adding {
 	size_t room_places;
 };
 
-/* --- What may be added ------------------------------------------------------------------------------------------- */
+/* --- Candidates -------------------------------------------------------------------------------------------------- */
 
 static int is_same_place(const float a[16], const float b[16])
 {
@@ -138,7 +138,7 @@ static int is_gone(struct adding *a, const struct scene_mesh *mesh, const float 
 	return open >= proof;
 }
 
-/* --- A scene that grows ------------------------------------------------------------------------------------------ */
+/* --- Extending a scene ------------------------------------------------------------------------------------------- */
 
 #define APPEND(a, items, item) \
 	(MEMORY_GROW((a)->out->items, (a)->room_##items, (a)->out->n_##items + (size_t)1) ? ERR_SYSTEM : \

@@ -1,4 +1,4 @@
-/* A scene to which rules are being applied, as shared by the files of this folder. */
+/* Shared by the files of this folder: a scene while rules are applied to it. */
 #pragma once
 
 #include <stdint.h>
@@ -10,7 +10,7 @@
 
 struct applying {
 	const struct look *look;
-	const struct rules *rules; /* of the look */
+	const struct rules *rules; /* those of the look */
 	const struct spare *spare; /* NULL: nothing is spared */
 	const struct scene *scene;
 	struct scene *out;

@@ -8,7 +8,7 @@
 #include "look/repaired.h"
 #include "scene/repair/holds.h"
 
-/* The angle, in degrees, up to which edges of an instance look round. */
+/* The largest angle of edges that look round on an instance, in degrees. */
 static float crease_of(const struct applying *a, const struct scene_instance *in)
 {
 	float angle = 0;

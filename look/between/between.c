@@ -25,7 +25,7 @@ struct making {
 	uint32_t *views; /* [views] of the base: the mixed view, or SCENE_NONE */
 };
 
-/* --- The interval ------------------------------------------------------------------------------------------------ */
+/* --- Intervals --------------------------------------------------------------------------------------------------- */
 
 struct interval *interval_new(const struct scene *first, const struct scene *second)
 {
@@ -55,7 +55,7 @@ int interval_is_cut(const struct interval *interval)
 	return interval->is_cut;
 }
 
-/* --- Places ------------------------------------------------------------------------------------------------------ */
+/* --- Places of draws --------------------------------------------------------------------------------------------- */
 
 static void take(float out[16], const double part[16], const float place[16])
 {

@@ -75,7 +75,7 @@ static void find_camera(struct bridge *b)
 		b->camera = &b->motions[0];
 }
 
-/* --- All together ------------------------------------------------------------------------------------------------ */
+/* --- All draws --------------------------------------------------------------------------------------------------- */
 
 /* @return 0 or ERR_SYSTEM (reported) */
 static int couple_by_number(struct bridge *b)

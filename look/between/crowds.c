@@ -84,7 +84,7 @@ int crowds_find(struct bridge *b, struct groups *crowds)
 	return 0;
 }
 
-/* --- The others -------------------------------------------------------------------------------------------------- */
+/* --- Stages 2 and 3 ---------------------------------------------------------------------------------------------- */
 
 /* The distance of a rival from where a motion takes a draw. @param motion  NULL: the draw stays */
 static double distance(const struct bridge *b, uint32_t i, uint32_t other, const double *motion)

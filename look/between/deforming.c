@@ -20,7 +20,7 @@
 /* The points of both frames. */
 struct points {
 	const struct scene *base;
-	struct table of[2]; /* of the base and of the other frame: keys -> any value */
+	struct table of[2]; /* base and other frame: keys -> any value */
 };
 
 /* @return 0 or ERR_SYSTEM (reported) */
@@ -88,7 +88,7 @@ static double stretch(const float *a, const float *b, size_t n)
 	return all > 0 ? off / all : 0;
 }
 
-/* --- Prices ------------------------------------------------------------------------------------------------------ */
+/* --- Costs ------------------------------------------------------------------------------------------------------- */
 
 /* A kind, with the places and edges of its draws in the other frame's eye space: members, then rivals. */
 struct kind {
@@ -149,7 +149,7 @@ static double price(const struct kind *kind, uint32_t member, uint32_t rival)
 	               INFINITY;
 }
 
-/* --- Order ------------------------------------------------------------------------------------------------------- */
+/* --- Alignment --------------------------------------------------------------------------------------------------- */
 
 /*
  * The cheapest alignment of members and rivals (Needleman and Wunsch 1970), from the last ones to the first.
@@ -255,7 +255,7 @@ static int couple_kind(struct bridge *b, struct group *g)
 	return err;
 }
 
-/* --- All together ------------------------------------------------------------------------------------------------ */
+/* --- All kinds --------------------------------------------------------------------------------------------------- */
 
 int deforming_couple(struct bridge *b, const struct groups *kinds)
 {

@@ -42,7 +42,7 @@ static const cyaml_schema_field_t camera_fields[] = {
 static const cyaml_schema_value_t camera_schema = { CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct camera_keys,
 	                                                                camera_fields) };
 
-/* --- Checks that libcyaml does not make -------------------------------------------------------------------------- */
+/* --- Checks beyond libcyaml's ------------------------------------------------------------------------------------ */
 
 static int is_word(const char *value, const char *one, const char *other)
 {

@@ -29,7 +29,7 @@ struct making {
 	uint32_t without;
 };
 
-/* --- What is seen ------------------------------------------------------------------------------------------------ */
+/* --- Visible draws ----------------------------------------------------------------------------------------------- */
 
 static int shows_as_much(const struct making *m, const struct scene_view *view)
 {
@@ -119,7 +119,7 @@ static enum fate fate_of(struct making *m, uint32_t i, uint32_t first_of_world)
 	return MOVES;
 }
 
-/* --- Moved ------------------------------------------------------------------------------------------------------- */
+/* --- Moving ------------------------------------------------------------------------------------------------------ */
 
 static int copy_scene(struct making *m)
 {

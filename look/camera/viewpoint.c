@@ -178,7 +178,7 @@ static void find_middle(const struct scene *s, const struct viewpoint *v, float 
 		out[k] = 0.5f * (low[k] + high[k]);
 }
 
-/* --- Where it stands --------------------------------------------------------------------------------------------- */
+/* --- Position ---------------------------------------------------------------------------------------------------- */
 
 /* The camera's position and target in eye space. */
 struct stance {
@@ -292,7 +292,7 @@ int viewpoint_find(const struct camera *camera, const struct look *look, const s
 	return 0;
 }
 
-/* --- What it projects -------------------------------------------------------------------------------------------- */
+/* --- Projection -------------------------------------------------------------------------------------------------- */
 
 /* Set rows x and y. @param recorded  project_recorded of the view */
 static void project_across(const struct viewpoint *v, const struct scene *scene, const float recorded[16],

@@ -10,7 +10,7 @@ struct look;
  * transforms rotate and translate only, so lengths do not change. */
 struct viewpoint {
 	const struct camera_keys *keys;
-	uint32_t main_view;         /* the view through which the recorded camera shows the most */
+	uint32_t main_view;         /* the recorded camera's most important view */
 	float eye_from_recorded[16]; /* the recorded camera's own space; the identity unless the program's projection
 	                                contains a camera */
 	float camera_from_eye[16], eye_from_camera[16];

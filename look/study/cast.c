@@ -17,9 +17,9 @@
 #define MIDDLE 0.1
 #define SAME 1e-4f
 
-/* --- What a unit does -------------------------------------------------------------------------------------------- */
+/* --- Effect of a unit -------------------------------------------------------------------------------------------- */
 
-/* The factor by which a texel dims the light; 2 if the unit does something else. */
+/* The share of light that a texel leaves; 2: the unit does something else. */
 static double factor_of(const struct scene_unit *u, const uint8_t *texel)
 {
 	uint32_t operand = GL_SRC_COLOR;
@@ -60,7 +60,7 @@ static int is_blob(const struct scene *s, const struct scene_unit *u)
 	return 1;
 }
 
-/* --- Where it falls ---------------------------------------------------------------------------------------------- */
+/* --- Place of the shadow ----------------------------------------------------------------------------------------- */
 
 /* 1 if a unit's coordinates are the positions of the points. */
 static int is_by_place(const struct scene_mesh *mesh, const struct scene_unit *u)

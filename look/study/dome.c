@@ -16,7 +16,7 @@ enum { SKIES = 64, SKY_TEXELS = 1024 };
 #define TINT 0.3
 /* If OpenGL lights more than this share of the solid surfaces, its lights are the scene's. */
 #define MOST_LIT 0.05
-/* The distance up to which things dim the light, in half widths of the window at their depth. */
+/* How far away things still dim the light, in half widths of the window at their depth. */
 #define REACH 0.6
 #define REACH_LIT 1.2
 /* Upright: within 60 degrees of the window's up. Normals within 8 degrees belong to one floor. */

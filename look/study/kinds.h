@@ -15,7 +15,7 @@ enum kind_role { KIND_WORLD, KIND_SKY, KIND_DECAL, KIND_SHADOW, KIND_LIT_SHADOW,
 
 /* A group of draws. */
 struct kind {
-	uint64_t hash[2]; /* of a mesh or a texture; for a state, its bits */
+	uint64_t hash[2]; /* mesh or texture: its hash; state: its bits */
 	uint32_t by;      /* mesh, texture or state (kinds.c) */
 	uint32_t frames, draws[N_KIND_ROLES];
 	uint64_t last;    /* the last frame that drew it, counted from 1 */

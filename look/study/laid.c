@@ -57,7 +57,7 @@ int laid_may_be(const struct scene *s, uint32_t instance)
 	       modelview_kind_of(in->modelview) == MODELVIEW_PLAIN;
 }
 
-/* --- What it lies on --------------------------------------------------------------------------------------------- */
+/* --- Surfaces below ---------------------------------------------------------------------------------------------- */
 
 /* 1 if a point with a normal lies on a face. */
 static int lies_on(const struct face *f, const double at[3], const double normal[3], double off)
@@ -86,7 +86,7 @@ static int lies_on(const struct face *f, const double at[3], const double normal
 /* The surface that an instance lies on. */
 struct ground {
 	double normal[3]; /* towards the viewer */
-	double radius;    /* of the largest object below it */
+	double radius;    /* radius of the largest object below */
 	uint32_t instance; /* SCENE_NONE: there is none */
 };
 
@@ -191,7 +191,7 @@ static int find_ground(const struct scene *s, const struct ball *balls, uint32_t
 	return n > 0;
 }
 
-/* --- What it does ------------------------------------------------------------------------------------------------ */
+/* --- Effect on colour -------------------------------------------------------------------------------------------- */
 
 static int has_black_texels(const struct scene_texture *t)
 {
@@ -262,7 +262,7 @@ static int darkens(const struct scene *s, const struct scene_instance *in)
 	return drawn_multiplies(m) || (m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA && is_black(s, in));
 }
 
-/* 1 if two balls are of similar size. */
+/* 1 if the sizes of two balls are similar. */
 static int is_alike(const struct ball *a, const struct ball *b)
 {
 	return a->radius < ALIKE * b->radius && b->radius < ALIKE * a->radius;

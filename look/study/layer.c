@@ -159,7 +159,7 @@ static int is_within(const struct box *b)
 	return size > 0;
 }
 
-/* 1 if the world contains the same object at the same place, of which the draw is one pass. */
+/* 1 if the world contains the same object at the same place, so that the draw is one of its passes. */
 static int is_in_world(const struct scene *s, const struct scene_instance *in, uint32_t end)
 {
 	for (uint32_t i = end; i < s->n_instances; i++)

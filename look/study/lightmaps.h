@@ -34,7 +34,7 @@ int lightmaps_add(struct lightmaps *l, const struct scene *scene, const struct m
 
 /* How lightmaps_walk selects draws of static meshes. */
 struct lightmaps_kind {
-	/* The key of a draw, each of which is taken once; 0: the draw is not wanted */
+	/* The key of a draw; draws with the same key are taken once. 0: the draw is not wanted */
 	uint64_t (*key_of)(const struct scene *scene, const struct scene_instance *instance, const struct motion_thing *thing);
 	int (*put)(struct lightmaps *l, const struct scene *scene, const struct scene_instance *instance,
 	           const struct motion_thing *thing);

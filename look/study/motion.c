@@ -89,7 +89,7 @@ static int find_thing(struct motion *m, struct table *counts, const struct scene
 
 /* --- The camera -------------------------------------------------------------------------------------------------- */
 
-/* A thing votes for the camera under which it has not moved. */
+/* A thing votes for the camera that makes it stand still. */
 struct vote {
 	uint32_t thing;
 	double eye[16], camera[16], weight;

@@ -48,7 +48,7 @@ struct motion_camera {
 	double share;  /* share, by size, of the things seen before that stand still under it */
 	int witnessed; /* 0: nothing was seen before, and this is the previous camera */
 	int moved;
-	uint32_t part; /* part of the recording through which the camera is followed; each part has its own world
+	uint32_t part; /* part of the recording, through which the camera can be followed; each has its own world
 	                  space */
 };
 

@@ -8,7 +8,7 @@ struct occluder_node;
 
 /* All zero: empty. */
 struct occluders {
-	double (*corners)[9]; /* of each triangle */
+	double (*corners)[9]; /* three for each triangle */
 	size_t n, room;
 	struct occluder_node *nodes; /* set by occluders_build */
 };

@@ -152,7 +152,7 @@ static void note_hud(struct roles *r, const struct scene *s)
 	r->hud_frames++;
 }
 
-/* --- All together ------------------------------------------------------------------------------------------------ */
+/* --- All roles --------------------------------------------------------------------------------------------------- */
 
 int roles_add(struct roles *r, const struct scene *scene, const struct motion *motion)
 {

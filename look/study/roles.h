@@ -44,7 +44,7 @@ struct roles {
 	unsigned hud_draws, hud_frames;
 	double camera[16];  /* in the last frame */
 	int knows_camera;
-	unsigned turns;     /* frames before which the viewer turned */
+	unsigned turns;     /* frames that the viewer turned before */
 	struct kinds kinds; /* roles known from single frames: layers of a sky, decals, shadows laid on the ground */
 };
 

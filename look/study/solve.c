@@ -364,7 +364,7 @@ static double off_by(const struct sample *x)
  */
 static void leave_out_strays(struct solving *s, double scale, unsigned char *sees)
 {
-	static const double most_steps[] = { 32, 6, 2 }; /* of 8 bits */
+	static const double most_steps[] = { 32, 6, 2 }; /* in steps of 8 bits */
 
 	for (size_t round = 0; round < sizeof(most_steps) / sizeof(most_steps[0]); round++) {
 		size_t n = 0;

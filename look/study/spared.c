@@ -11,7 +11,7 @@
 
 enum { MOST_RULES = 256 };
 
-/* Each draw decides by itself which sides it shows (look/sides.h), so frames do not vote on that. */
+/* Each draw decides alone which sides it shows (look/sides.h), so frames do not vote on that. */
 static const uint32_t bits[SPARED_BITS] = { SCENE_HIDDEN_FROM_LIGHTS, SCENE_STOPS_NO_SUN };
 
 /* --- Votes ------------------------------------------------------------------------------------------------------- */
