@@ -49,7 +49,7 @@ RECORDER_OBJ := $(RECORDER_SRC:%.c=$(BUILD)/recorder/%.o) \
 VISUAL_SRC := verbs/recording/visual.c
 REPLAY_SRC := $(wildcard replay/*.c replay/*/*.c replay/*/*/*.c)
 COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c, \
-	base capture capture/format ci scene scene/repair look look/* kernels/ref tracer/*) diff/*.c diff/*/*.c) \
+	base capture capture/format ci scene scene/repair look/* look/*/* kernels/ref tracer/*) diff/*.c diff/*/*.c) \
 	$(filter-out $(VISUAL_SRC),$(wildcard verbs/*/*.c verbs/*/*/*.c))
 COMMAND_GEN := $(patsubst %,$(BUILD)/gen/%.c,kernels commands handlers page manual surfaces)
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)

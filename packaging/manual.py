@@ -19,7 +19,7 @@ PAGE_COLUMNS = 114  # as base/options.c
 
 Format = collections.namedtuple("Format", "name source summary")
 FORMATS = (
-    Format("look", "look/rules.h", "rules about surfaces and lights, for relume render --look"),
+    Format("look", "look/rules/rules.h", "rules about surfaces and lights, for relume render --look"),
     Format("camera", "look/camera/camera.h", "a camera for recorded frames, for relume render --camera"),
     Format("diff", "diff/rules/rules.h", "how relume diff compares frames: relume-diff.yaml"),
     Format("ci", "ci/plan.h", "the programs that relume ci records: relume-ci.yaml"),

@@ -57,7 +57,7 @@ struct scene_face {
 /* Bits of scene_surface.hidden: rays that pass a surface, and parts of it that the beauty picture leaves out. */
 #define SCENE_HIDDEN_FROM_LIGHTS 1u  /* casts no shadow */
 #define SCENE_HIDDEN_FROM_MIRRORS 2u /* neither mirrored nor seen through glass */
-/* passed by light from behind the only side that it shows (look/sides.h) */
+/* passed by light from behind the only side that it shows (look/spare/sides.h) */
 #define SCENE_ONE_SIDED 4u
 /* with SCENE_ONE_SIDED, if all its triangles agree: in object space, corners of the shown side run counter-clockwise */
 #define SCENE_SHOWN_COUNTER 65536u
@@ -70,7 +70,7 @@ struct scene_face {
                                         draws */
 #define SCENE_DOME_LIT 256u          /* lit by scene.dome */
 #define SCENE_NEAR_MIRROR 512u       /* mirrors nearby surfaces only; rays that meet none keep its own colour */
-/* casts no shadow: seen through more than seen, or carved (look/carved.h) */
+/* casts no shadow: seen through more than seen, or carved (look/spare/carved.h) */
 #define SCENE_FILM 1024u
 #define SCENE_UNSHADED 2048u         /* keeps the light that GL gives it, even if something blocks it */
 #define SCENE_CREASED 8192u          /* has normals besides GL's, scene_mesh.crease */

@@ -87,7 +87,7 @@ static inline struct vec3 glass_absorb(GLOBAL const struct scene_material *m, fl
 
 /*
  * 1 where a ray to a light meets the only side that a surface shows: the light is behind it. Culled sides are not
- * shown; without culling, normals tell the side of a lit triangle (look/sides.h). Both sides of glass count.
+ * shown; without culling, normals tell the side of a lit triangle (look/spare/sides.h). Both sides of glass count.
  */
 static inline int transparency_meets_shown(const struct point *p, struct vec3 d)
 {

@@ -8,11 +8,11 @@
 #include "look/apply/match.h"
 #include "look/apply/meshes.h"
 #include "look/apply/surface.h"
-#include "look/film.h"
-#include "look/gloss.h"
-#include "look/matched.h"
-#include "look/sides.h"
-#include "look/solid.h"
+#include "look/draws/film.h"
+#include "look/draws/gloss.h"
+#include "look/draws/solid.h"
+#include "look/rules/matched.h"
+#include "look/spare/sides.h"
 
 static void add_parameters(struct scene *out, const struct parameter_rule *list, uint32_t n)
 {

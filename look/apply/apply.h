@@ -1,17 +1,17 @@
 /*
- * Applies rules (look/rules.h) to a scene. OpenGL's own picture stays the same; rules change what the tracer adds to
- * it.
+ * Applies rules (look/rules/rules.h) to a scene. OpenGL's own picture stays the same; rules change what the tracer adds
+ * to it.
  */
 #pragma once
 
-#include "look/spare.h"
+#include "look/spare/spare.h"
 #include "scene/scene.h"
 
 struct look;
 
 /**
  * Apply rules to a scene.
- * @param look   NULL: no rules; surfaces that would do harm are spared even so (look/spare.h)
+ * @param look   NULL: no rules; surfaces that would do harm are spared even so (look/spare/spare.h)
  * @param out    a copy that borrows what has not changed; free it with look_release before the scene
  * @param found  receives what is spared, or would be if rules did not forbid it; free with spare_free. NULL: not
  * wanted

@@ -4,8 +4,8 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "look/rules.h"
-#include "look/spare.h"
+#include "look/rules/rules.h"
+#include "look/spare/spare.h"
 #include "scene/scene.h"
 
 struct applying {

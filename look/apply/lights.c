@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/mat4.h"
-#include "look/world.h"
+#include "look/rules/world.h"
 #include "scene/box.h"
 
 /* The tolerance between ambient light and colours that a program rounded to 8 bits. */

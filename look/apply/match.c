@@ -6,10 +6,10 @@
 #include "base/frames.h"
 #include "base/mat4.h"
 #include "look/apply/lights.h"
-#include "look/drawn.h"
-#include "look/modelview.h"
-#include "look/plane.h"
-#include "look/world.h"
+#include "look/draws/drawn.h"
+#include "look/draws/modelview.h"
+#include "look/draws/plane.h"
+#include "look/rules/world.h"
 
 static int has_texture(const struct scene *s, const struct scene_material *m, const char *text)
 {

@@ -1,11 +1,11 @@
 #include "look/apply/meshes.h"
 
-#include "gl_tokens.h"
 #include "base/mat4.h"
+#include "gl_tokens.h"
+#include "look/apply/crease.h"
 #include "look/apply/match.h"
-#include "look/crease.h"
-#include "look/drawn.h"
-#include "look/repaired.h"
+#include "look/draws/drawn.h"
+#include "look/rules/repaired.h"
 #include "scene/repair/holds.h"
 
 /* The largest angle of edges that look round on an instance, in degrees. */

@@ -10,7 +10,7 @@
 #include "look/apply/match.h"
 #include "look/apply/meshes.h"
 #include "look/apply/surface.h"
-#include "look/repaired.h"
+#include "look/rules/repaired.h"
 #include "scene/draw_list.h"
 
 enum { TOLD_BYTES = 250, TOLD_DRAWS = 90, MOST_REPAIRS = 64 };

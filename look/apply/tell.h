@@ -1,7 +1,7 @@
 /* Describes the effect of rules on a frame, for reports. */
 #pragma once
 
-#include "look/rules.h"
+#include "look/rules/rules.h"
 #include "scene/scene.h"
 
 /**

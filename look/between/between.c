@@ -11,7 +11,7 @@
 #include "look/between/couples.h"
 #include "look/between/mixed.h"
 #include "look/between/pose.h"
-#include "look/matrix.h"
+#include "look/draws/matrix.h"
 
 struct interval {
 	struct bridge bridges[2]; /* by base */

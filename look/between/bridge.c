@@ -6,8 +6,8 @@
 
 #include "look/between/mixed.h"
 #include "look/between/pose.h"
-#include "look/drawn.h"
-#include "look/matrix.h"
+#include "look/draws/drawn.h"
+#include "look/draws/matrix.h"
 
 const float *bridge_place(const struct bridge *b, uint32_t i, int second)
 {

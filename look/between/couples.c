@@ -7,9 +7,9 @@
 #include "look/between/crowds.h"
 #include "look/between/deforming.h"
 #include "look/between/pose.h"
-#include "look/drawn.h"
-#include "look/followed.h"
-#include "look/matrix.h"
+#include "look/draws/drawn.h"
+#include "look/draws/followed.h"
+#include "look/draws/matrix.h"
 #include "scene/box.h"
 
 /* --- The camera -------------------------------------------------------------------------------------------------- */

@@ -1,5 +1,5 @@
 /*
- * Draws of two frames that show the same thing: matched by mesh and number (look/followed.h), then in crowds
+ * Draws of two frames that show the same thing: matched by mesh and number (look/draws/followed.h), then in crowds
  * (crowds.h), then deforming ones (deforming.h). Also the motion of the camera, shared by more than half of the
  * opaque surfaces, by size.
  */

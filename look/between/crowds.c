@@ -5,8 +5,8 @@
 
 #include "base/err.h"
 #include "look/between/place.h"
-#include "look/followed.h"
-#include "look/matrix.h"
+#include "look/draws/followed.h"
+#include "look/draws/matrix.h"
 
 #define WINDOW 64u       /* how far apart partners may be in the order of their crowd */
 #define MOST_MOTIONS 9u  /* that are tried, standing still included */

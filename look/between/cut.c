@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-#include "look/matrix.h"
+#include "look/draws/matrix.h"
 
 #define ALL_POINTS 32768u /* samples in a frame */
 #define MOST_POINTS 4096u /* samples in a triangle, at most */

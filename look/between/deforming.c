@@ -8,8 +8,8 @@
 #include "base/err.h"
 #include "base/table.h"
 #include "look/between/place.h"
-#include "look/followed.h"
-#include "look/matrix.h"
+#include "look/draws/followed.h"
+#include "look/draws/matrix.h"
 #include "scene/box.h"
 
 #define ALONE 0.5 /* cost of a draw without a partner, if one frame has more of them */

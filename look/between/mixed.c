@@ -9,7 +9,7 @@
 #include "base/err.h"
 #include "base/memory.h"
 #include "look/between/pose.h"
-#include "look/matrix.h"
+#include "look/draws/matrix.h"
 #include "scene/program.h"
 
 #define STANDS 1e-4 /* tolerance for a light that the camera's motion leaves in place, relative to its distance */

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "look/matrix.h"
+#include "look/draws/matrix.h"
 
 static double distance(const double a[4], const double b[4])
 {

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "look/matrix.h"
+#include "look/draws/matrix.h"
 
 #define MOST_STEPS 64 /* the polar decomposition needs about ten */
 #define AFFINE 1e-6   /* tolerance for the last row, relative to its last number */

@@ -107,8 +107,8 @@ static int check_kind(const char *path, const struct camera_keys *k)
 	for (size_t i = 0; i < sizeof(kinds) / sizeof(kinds[0]) && !known; i++)
 		known = camera_is_kind(k, kinds[i]);
 	if (!known)
-		return err_report(ERR_INPUT, path, "kind must be pinhole, orthographic, panorama, cube or stereo, not '%s'",
-		                  k->kind);
+		return err_report(ERR_INPUT, path,
+		                  "kind must be pinhole, orthographic, panorama, cube or stereo, not '%s'", k->kind);
 	if (k->field_of_view && k->height)
 		return err_report(ERR_INPUT, path, "field_of_view and height cannot be used together");
 	if (k->field_of_view && k->kind && !camera_is_kind(k, "pinhole") && !camera_is_kind(k, "stereo"))
@@ -161,7 +161,8 @@ static int check_all(const char *path, const struct camera_keys *k)
 	if (!err)
 		err = check_numbers(path, "far", k->far, 1, -1e30f, 1e30f);
 	if (!err && k->near && k->far && !(*k->near < *k->far))
-		err = err_report(ERR_INPUT, path, "near is %g but far is %g; far must be larger", (double)*k->near, (double)*k->far);
+		err = err_report(ERR_INPUT, path, "near is %g but far is %g; far must be larger",
+		                 (double)*k->near, (double)*k->far);
 	for (int i = 0; i < 2 && !err && k->size; i++)
 		if (!k->size[i] || k->size[i] > CAMERA_MOST_SIZE)
 			err = err_report(ERR_INPUT, path, "size is %u x %u; each must be between 1 and %d", k->size[0],

@@ -11,7 +11,7 @@
 #include "look/camera/camera.h"
 #include "look/camera/programs.h"
 #include "look/camera/viewpoint.h"
-#include "look/drawn.h"
+#include "look/draws/drawn.h"
 #include "scene/box.h"
 #include "scene/skies.h"
 

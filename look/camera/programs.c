@@ -5,7 +5,7 @@
 
 #include "base/err.h"
 #include "base/mat4.h"
-#include "look/drawn.h"
+#include "look/draws/drawn.h"
 #include "scene/program.h"
 
 enum {

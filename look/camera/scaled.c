@@ -8,7 +8,7 @@
 
 #include "base/err.h"
 #include "base/mat4.h"
-#include "look/drawn.h"
+#include "look/draws/drawn.h"
 #include "scene/backdrop.h"
 #include "scene/program.h"
 

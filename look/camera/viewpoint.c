@@ -6,10 +6,10 @@
 #include "base/err.h"
 #include "base/mat4.h"
 #include "look/camera/camera.h"
-#include "look/drawn.h"
-#include "look/rules.h"
-#include "look/solid.h"
-#include "look/world.h"
+#include "look/draws/drawn.h"
+#include "look/draws/solid.h"
+#include "look/rules/rules.h"
+#include "look/rules/world.h"
 
 /* --- Vectors ----------------------------------------------------------------------------------------------------- */
 
@@ -288,7 +288,8 @@ int viewpoint_find(const struct camera *camera, const struct look *look, const s
 	out->aspect = k->size ? (float)k->size[0] / (float)k->size[1] :
 	              scene->views[out->main_view].viewport[2] / scene->views[out->main_view].viewport[3];
 	if (k->near && !out->is_parallel && !(*k->near > 0))
-		return err_report(ERR_INPUT, camera->path, "near is %g; for a pinhole, it must be above 0", (double)*k->near);
+		return err_report(ERR_INPUT, camera->path, "near is %g; for a pinhole, it must be above 0",
+		                  (double)*k->near);
 	return 0;
 }
 

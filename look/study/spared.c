@@ -5,13 +5,13 @@
 
 #include "base/err.h"
 #include "base/memory.h"
-#include "look/blockers.h"
-#include "look/spare.h"
+#include "look/spare/blockers.h"
+#include "look/spare/spare.h"
 #include "scene/depths.h"
 
 enum { MOST_RULES = 256 };
 
-/* Each draw decides alone which sides it shows (look/sides.h), so frames do not vote on that. */
+/* Each draw decides alone which sides it shows (look/spare/sides.h), so frames do not vote on that. */
 static const uint32_t bits[SPARED_BITS] = { SCENE_HIDDEN_FROM_LIGHTS, SCENE_STOPS_NO_SUN };
 
 /* --- Votes ------------------------------------------------------------------------------------------------------- */

@@ -1,6 +1,6 @@
 /*
- * Decisions about which surfaces block no light (look/spare.h), made once for the whole recording by a majority of
- * its frames. If each frame decided alone, shadows would come and go as things move.
+ * Decisions about which surfaces block no light (look/spare/spare.h), made once for the whole recording by a majority
+ * of its frames. If each frame decided alone, shadows would come and go as things move.
  *
  * Frames vote on meshes and on textures, separately for lit and unlit draws. A mesh drawn several times in a frame is
  * spared there only if all its draws are, because one of them may be in the lit world. Meshes that occur in one frame
@@ -11,7 +11,7 @@
 #include <stdint.h>
 
 #include "base/table.h"
-#include "look/findings.h"
+#include "look/rules/findings.h"
 #include "scene/scene.h"
 
 enum { SPARED_BITS = 2 };

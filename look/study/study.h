@@ -1,5 +1,5 @@
 /*
- * A study of a recording: it takes scene after scene and finds rules (look/findings.h).
+ * A study of a recording: it takes scene after scene and finds rules (look/rules/findings.h).
  *
  * motion.h finds the camera and what moves; the other files rely on it to interpret what was drawn.
  */
@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-#include "look/findings.h"
+#include "look/rules/findings.h"
 #include "scene/scene.h"
 
 struct study;

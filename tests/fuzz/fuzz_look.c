@@ -3,7 +3,7 @@
 
 #include "look/apply/apply.h"
 #include "look/apply/tell.h"
-#include "look/rules.h"
+#include "look/rules/rules.h"
 #include "replay/replay.h"
 #include "scene/release.h"
 #include "tests/fuzz/target.h"

@@ -94,7 +94,7 @@ def matrix(numbers16):
 
 
 def lies_in(plane, has):
-    """1 if most points of a draw lie in a plane of the world, by the rule of look/plane.c."""
+    """1 if most points of a draw lie in a plane of the world, by the rule of look/draws/plane.c."""
     points = matrix(has["instance"]["modelview"]) @ numpy.array(has["points"], float).reshape(-1, 4).T
     off = abs(numpy.array(plane) @ numpy.linalg.inv(has["camera"]) @ points)
     return (off <= 1e-3 * abs(points).sum(axis=0)).mean() >= 0.9

@@ -1,4 +1,4 @@
-/* Rules (look/rules.h): invalid files, matching, and the effect on a picture. */
+/* Rules (look/rules/rules.h): invalid files, matching, and the effect on a picture. */
 #include <malloc.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +10,7 @@
 #include "tests/said.h"
 #include "tests/truth/scenes.h"
 #include "look/apply/apply.h"
-#include "look/rules.h"
+#include "look/rules/rules.h"
 
 #define SIZE 32
 

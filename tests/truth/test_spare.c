@@ -1,7 +1,7 @@
-/* Objects spared as light blockers (look/spare.h), and others that are not: the share of a surface in shadow. */
+/* Objects spared as light blockers (look/spare/spare.h), and others that are not: the share of a surface in shadow. */
 #include "base/err.h"
 #include "look/apply/apply.h"
-#include "look/rules.h"
+#include "look/rules/rules.h"
 #include "tests/case.h"
 #include "tests/truth/scenes.h"
 

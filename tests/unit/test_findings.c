@@ -1,11 +1,11 @@
-/* Findings reach what applies them as the structs that their file would give (look/findings.h). */
-#include "look/findings.h"
+/* Findings reach what applies them as the structs that their file would give (look/rules/findings.h). */
+#include "look/rules/findings.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "look/rules.h"
-#include "look/schema.h"
+#include "look/rules/rules.h"
+#include "look/rules/schema.h"
 #include "tests/case.h"
 
 static void check_same(const void *a, const void *b, const cyaml_schema_field_t *fields);

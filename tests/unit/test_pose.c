@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "look/between/pose.h"
-#include "look/matrix.h"
+#include "look/draws/matrix.h"
 #include "tests/case.h"
 
 #define PI 3.14159265358979323846

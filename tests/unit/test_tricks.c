@@ -1,10 +1,10 @@
-/* Merging the tricks found in several frames (look/study/tricks.h). */
-#include "look/study/tricks.h"
+/* Merging the tricks found in several frames (look/study/tricks/tricks.h). */
+#include "look/study/tricks/tricks.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#include "look/study/relight.h"
+#include "look/study/light/relight.h"
 #include "tests/case.h"
 
 /*

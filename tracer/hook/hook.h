@@ -2,7 +2,7 @@
  * A user's hook: OpenCL C text whose functions stand in for stages of the wavefront. corpus/hooks/README.md is what its
  * author reads; kernels/frame/hook.h calls the functions.
  *
- * Parameters are declared in the text, a line each, and set by rules (look/rules.h):
+ * Parameters are declared in the text, a line each, and set by rules (look/rules/rules.h):
  *
  *     #pragma relume parameter float bands = 3
  *     #pragma relume parameter color tint = 1 0.5 0

@@ -1,7 +1,7 @@
 #include "verbs/render/seen.h"
 
 #include "look/apply/apply.h"
-#include "look/unseen.h"
+#include "look/apply/unseen.h"
 
 static int apply_rules(const struct settings *settings, struct seen *s)
 {

@@ -4,7 +4,7 @@
 #include "look/between/between.h"
 #include "look/camera/elsewhere.h"
 #include "look/camera/scaled.h"
-#include "look/spare.h"
+#include "look/spare/spare.h"
 #include "verbs/render/settings.h"
 
 struct seen {

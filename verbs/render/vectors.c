@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "look/matrix.h"
-#include "look/followed.h"
+#include "look/draws/followed.h"
+#include "look/draws/matrix.h"
 #include "scene/drawn.h"
 
 /* How far off its triangle's plane and sides a point of a mesh may seem, as a share of the triangle's size: positions

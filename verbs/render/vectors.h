@@ -5,8 +5,8 @@
  *
  * They come from the recording alone: a point goes back through its draw's modelview into its mesh, to that mesh's
  * place in the frame before, and through that draw's matrices onto the picture. The draw before is its partner
- * (look/followed.h); points of a mesh with other vertices are followed triangle by triangle. Draws without a partner,
- * and pixels that nothing drew, have no vector. What hid a point then does not count.
+ * (look/draws/followed.h); points of a mesh with other vertices are followed triangle by triangle. Draws without a
+ * partner, and pixels that nothing drew, have no vector. What hid a point then does not count.
  */
 #pragma once
 

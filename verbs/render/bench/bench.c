@@ -8,7 +8,7 @@
 #include "base/folder.h"
 #include "base/options.h"
 #include "base/verbs.h"
-#include "look/rules.h"
+#include "look/rules/rules.h"
 #include "tracer/accel/builders.h"
 #include "verbs/render/bench/bench_accel.h"
 #include "verbs/render/bench/bench_frame.h"

@@ -1,0 +1,184 @@
+#include "look/apply/crease.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+
+#define DEGREE 0.017453292519943295f
+/* Positions are equal if they agree in this many steps of the mesh's size: programs close circles with sin(2 pi). */
+#define STEPS 262144.0f
+/* at one position; a larger fan stays flat */
+enum { MOST_CORNERS = 1024 };
+
+struct corner {
+	int32_t place[3];
+	uint32_t number; /* 3 x primitive + corner */
+};
+
+/* One primitive. */
+struct facet {
+	float normal[3]; /* unit vector on the side of the program's normal; all 0: the primitive has no area */
+	float angle[3];  /* at its corners */
+	int is_flat;
+};
+
+static void subtract(const float a[3], const float b[3], float out[3])
+{
+	for (int k = 0; k < 3; k++)
+		out[k] = a[k] - b[k];
+}
+
+static float dot(const float a[3], const float b[3])
+{
+	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* @return the length before */
+static float normalize(float v[3])
+{
+	const float length = sqrtf(dot(v, v));
+
+	for (int k = 0; k < 3; k++)
+		v[k] = length > 0 ? v[k] / length : 0;
+	return length;
+}
+
+static const float *corner_position(const struct scene_mesh *mesh, uint32_t number)
+{
+	return mesh->position + 4 * (size_t)mesh->index[number];
+}
+
+static const float *corner_normal(const struct scene_mesh *mesh, uint32_t number)
+{
+	return mesh->normal + 3 * (size_t)mesh->index[number];
+}
+
+static struct facet facet_of(const struct scene_mesh *mesh, uint32_t primitive, int flat)
+{
+	const uint32_t first = 3 * primitive;
+	struct facet f = { .is_flat = 1 };
+	float edge[3][3];
+
+	for (uint32_t i = 0; i < 3; i++) {
+		subtract(corner_position(mesh, first + (i + 1) % 3), corner_position(mesh, first + i), edge[i]);
+		normalize(edge[i]);
+		f.is_flat &= flat || memcmp(corner_normal(mesh, first), corner_normal(mesh, first + i), 3 * sizeof(float)) == 0;
+	}
+	for (int i = 0; i < 3; i++)
+		f.angle[i] = acosf(fmaxf(-1, fminf(1, -dot(edge[i], edge[(i + 2) % 3]))));
+	for (int k = 0; k < 3; k++)
+		f.normal[k] = edge[0][(k + 1) % 3] * edge[1][(k + 2) % 3] - edge[0][(k + 2) % 3] * edge[1][(k + 1) % 3];
+	/* The last corner's normal is the one used under flat shading. */
+	normalize(f.normal);
+	for (int k = 0; k < 3 && dot(f.normal, corner_normal(mesh, first + 2)) < 0; k++)
+		f.normal[k] = -f.normal[k];
+	return f;
+}
+
+static int compare_corners(const void *a, const void *b)
+{
+	const struct corner *one = a, *other = b;
+
+	for (int k = 0; k < 3; k++)
+		if (one->place[k] != other->place[k])
+			return one->place[k] < other->place[k] ? -1 : 1;
+	return one->number < other->number ? -1 : one->number > other->number;
+}
+
+/* All corners, sorted so that those at one position are adjacent. */
+static void sort_corners(const struct scene_mesh *mesh, struct corner *corners)
+{
+	const uint32_t n = 3 * mesh->primitive_count;
+	float most = 0;
+
+	for (uint32_t i = 0; i < n; i++)
+		for (int k = 0; k < 3; k++)
+			most = fmaxf(most, fabsf(corner_position(mesh, i)[k]));
+	for (uint32_t i = 0; i < n; i++) {
+		corners[i].number = i;
+		for (int k = 0; k < 3; k++) {
+			const float at = corner_position(mesh, i)[k] / most * STEPS;
+
+			corners[i].place[k] = at >= -STEPS && at <= STEPS ? (int32_t)lrintf(at) : 0;
+		}
+	}
+	qsort(corners, n, sizeof(*corners), compare_corners);
+}
+
+/* The mean normal of a corner and the others at its position. */
+static void mean_normal(const struct facet *facets, const struct corner *corners, uint32_t n, const struct corner *own,
+                        float least, float out[3])
+{
+	const float *face = facets[own->number / 3].normal;
+	float sum[3] = { 0, 0, 0 };
+
+	for (uint32_t i = 0; i < n && n <= MOST_CORNERS; i++) {
+		const struct facet *f = &facets[corners[i].number / 3];
+
+		for (int k = 0; k < 3 && dot(f->normal, face) >= least; k++)
+			sum[k] += f->normal[k] * f->angle[corners[i].number % 3];
+	}
+	memcpy(out, normalize(sum) > 0 ? sum : face, sizeof(sum));
+}
+
+static void smooth_all(const struct scene_mesh *mesh, const struct facet *facets, const struct corner *corners,
+                       float angle, float *out)
+{
+	const float least = cosf(angle * DEGREE) - 1e-6f;
+	const uint32_t n = 3 * mesh->primitive_count;
+
+	for (uint32_t first = 0, end; first < n; first = end) {
+		for (end = first + 1;
+		     end < n && memcmp(corners[first].place, corners[end].place, sizeof(corners[end].place)) == 0;
+		     end++)
+			;
+		for (uint32_t i = first; i < end; i++) {
+			const struct facet *f = &facets[corners[i].number / 3];
+			float *normal = out + 3 * (size_t)corners[i].number;
+
+			if (f->is_flat && dot(f->normal, f->normal) > 0)
+				mean_normal(facets, corners + first, end - first, &corners[i], least, normal);
+			else
+				memcpy(normal, corner_normal(mesh, corners[i].number), 3 * sizeof(*normal));
+		}
+	}
+}
+
+int crease_smooth(const struct scene_mesh *mesh, int flat, float angle, struct scene_mesh **out)
+{
+	const size_t n = mesh->kind == SCENE_TRIANGLES && mesh->normal ? mesh->primitive_count : 0;
+	struct facet *facets = malloc((n + 1) * sizeof(*facets));
+	struct corner *corners = malloc((3 * n + 1) * sizeof(*corners));
+	struct scene_mesh *made = NULL;
+	uint32_t bits;
+	int any = 0, err = 0;
+
+	*out = NULL;
+	if (!facets || !corners)
+		err = err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t i = 0; i < n && !err; i++) {
+		facets[i] = facet_of(mesh, i, flat);
+		any |= facets[i].is_flat;
+	}
+	if (any && !err) {
+		made = malloc(sizeof(*made) + 9 * n * sizeof(float));
+		err = made ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
+	}
+	if (made) {
+		float *normals = (float *)(made + 1);
+
+		sort_corners(mesh, corners);
+		smooth_all(mesh, facets, corners, angle, normals);
+		*made = *mesh;
+		made->crease = normals;
+		memcpy(&bits, &angle, sizeof(bits));
+		made->hash[0] ^= 0x63726561u + (uint32_t)flat; /* caches must treat it as another mesh */
+		made->hash[1] ^= bits;
+		*out = made;
+	}
+	free(facets);
+	free(corners);
+	return err;
+}
