@@ -5,7 +5,7 @@ FUZZ_CC ?= clang
 FUZZ_CXX ?= clang++
 FUZZ_TARGETS := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 FUZZ_SRC := $(filter-out tracer/image/oiio_load.c $(VISUAL_SRC),$(wildcard $(patsubst %,%/*.c, \
-		base capture/format scene scene/repair look look/apply verbs/farm verbs/recording \
+		base capture/format scene scene/repair look/draws look/rules look/spare look/apply verbs/farm verbs/recording \
 		$(addprefix diff/,rules baseline score pictures) $(addprefix tracer/,image device) kernels/ref))) \
 	$(addprefix tracer/accel/,blas_store.c bvh.c compress.c soup.c tree.c) $(REPLAY_SRC) verbs/render/stamp.c \
 	$(addprefix capture/write/,pages.c values.c) $(addprefix tests/fuzz/,calls.c stream.c target.c)
