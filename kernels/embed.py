@@ -3,7 +3,7 @@
 usage: embed.py OUT.c OUT.d INCLUDE_DIR... -- FILE.cl...
 
 The first #include "..." of a file is replaced by its text (searched beside the including file, then in the given
-folders), and line numbers of compiler messages are kept by #line. OUT.c defines kernel_files and kernel_places
+folders), every one of NAME_lanes.h (kernels/one_lanes.h), and line numbers of compiler messages are kept by #line. OUT.c defines kernel_files and kernel_places
 (kernels/embed.h). OUT.d is the list of files read, for make. Same input, same bytes.
 """
 import os
@@ -15,7 +15,7 @@ KERNEL = re.compile(r'^(?:__kernel|KERNEL_OF\(\w+\)) void (\w+)', re.MULTILINE)
 
 
 def expand(path, folders, seen):
-    """The lines of a file with its includes in place, each file once; `seen` collects every file read."""
+    """The lines of a file with its includes in place, each file but those of lanes once; `seen` collects all."""
     seen.append(path)
     lines = ['#line 1 "%s"' % path]
     with open(path, encoding="utf-8") as source:
@@ -28,7 +28,7 @@ def expand(path, folders, seen):
             inner = next((place for place in places if os.path.isfile(place)), None)
             if inner is None:
                 sys.exit("%s:%d: no file %s" % (path, number, found.group(1)))
-            if os.path.normpath(inner) in seen:
+            if os.path.normpath(inner) in seen and not inner.endswith("_lanes.h"):
                 lines.append("")  # it has #pragma once
                 continue
             lines += expand(os.path.normpath(inner), folders, seen)

@@ -39,7 +39,7 @@ static inline void find_left(const struct dome_find_arguments *a, uint first, st
 
 /* Where sixteen fragments take light from all around. */
 struct looks {
-	struct pack_vec o, axes[3]; /* axes[2]: the normal */
+	struct vec3_16 o, axes[3]; /* axes[2]: the normal */
 	packf strength;             /* 0: none takes any */
 	packu part;                 /* of their blocks' directions */
 };
@@ -48,27 +48,26 @@ struct looks {
 WIDE_VECTORS static inline void look_around(const struct dome_find_arguments *a, const struct pack *p, uint height,
                                             const struct pack_surface *surface, struct looks *l)
 {
-	const struct pack_vec from = pack_view_direction(p, height), back = pack_scale(pack_normalize(from), (packf)(-1));
+	const struct vec3_16 from = pack_view_direction(p, height), back = v3_scale(v3_normalize(from), (packf)(-1));
 	const packf strength = pack_fog(&a->tables, p) * (p->material->lighting ? a->dome.lit : 1.0f);
 
 	l->part = as_uint16((int)height - 1 - p->row) % DOME_BLOCK * DOME_BLOCK + as_uint16(p->x) % DOME_BLOCK;
-	l->axes[2] = pack_choose(surface->plane, pack_scale(surface->plane, (packf)(-1)),
-	                         pack_dot(surface->plane, from) > 0.0f);
+	l->axes[2] = v3_choose(v3_dot(surface->plane, from) > 0.0f, v3_scale(surface->plane, (packf)(-1)), surface->plane);
 	l->o = pack_ray_origin(p->weight, surface, l->axes[2], back);
-	l->strength = select((packf)(0), strength, (pack_dot(l->axes[2], l->axes[2]) > 0.0f) & (strength > 0.0f));
-	pack_basis(l->axes[2], &l->axes[0], &l->axes[1]);
+	l->strength = select((packf)(0), strength, (v3_dot(l->axes[2], l->axes[2]) > 0.0f) & (strength > 0.0f));
+	sample_basis(l->axes[2], &l->axes[0], &l->axes[1]);
 }
 
 /* The directions of a sample, and how far they look. */
-WIDE_VECTORS static inline struct pack_vec look_along(const struct dome_find_arguments *a, const struct looks *l,
+WIDE_VECTORS static inline struct vec3_16 look_along(const struct dome_find_arguments *a, const struct looks *l,
                                                       uint sample, packf *reach)
 {
 	packf row[4];
 
 	pack_gather(a->directions + sample * DOME_BLOCK * DOME_BLOCK * 4, l->part, row);
 	*reach = row[3];
-	return pack_add(pack_add(pack_scale(l->axes[0], row[0]), pack_scale(l->axes[1], row[1])),
-	                pack_scale(l->axes[2], row[2]));
+	return v3_add(v3_add(v3_scale(l->axes[0], row[0]), v3_scale(l->axes[1], row[1])),
+	                v3_scale(l->axes[2], row[2]));
 }
 
 /* Some lanes' place and rays, to where they stand in the list. */
@@ -89,7 +88,7 @@ static inline void store_looks(const struct dome_find_arguments *a, const struct
 	}
 	for (uint sample = 0; sample < a->samples; sample++) {
 		packf reach;
-		const struct pack_vec d = look_along(a, l, sample, &reach);
+		const struct vec3_16 d = look_along(a, l, sample, &reach);
 
 		for (uint left = lit; left; left &= left - 1) {
 			const uint lane = popcount((left & -left) - 1);
@@ -192,9 +191,9 @@ static inline uint look_lanes(const struct plain_arguments *a, const struct shad
 		return lanes;
 	look_around(&d, p, a->height, &surface, &own);
 	done = pack_mask(lanes);
-	looks->o = pack_choose(looks->o, own.o, done);
+	looks->o = v3_choose(done, own.o, looks->o);
 	for (uint i = 0; i < 3; i++)
-		looks->axes[i] = pack_choose(looks->axes[i], own.axes[i], done);
+		looks->axes[i] = v3_choose(done, own.axes[i], looks->axes[i]);
 	looks->strength = select(looks->strength, own.strength, done);
 	looks->part = select(looks->part, own.part, done);
 	return lanes;
@@ -233,7 +232,7 @@ WIDE_VECTORS static inline void store_row_of_looks(const struct dome_find_argume
 	store_records(row, (__global float *)(a->places + base));
 	for (uint sample = 0; sample < a->samples; sample++) {
 		packf reach;
-		const struct pack_vec d = look_along(a, l, sample, &reach);
+		const struct vec3_16 d = look_along(a, l, sample, &reach);
 
 		row[3] = 0;
 		row[4] = select((packf)(0), d.x, lit);
@@ -266,7 +265,7 @@ static inline void look_row(const struct plain_arguments *a, const struct shade_
 	uint material, alone = 0;
 	struct looks looks;
 
-	looks.o = looks.axes[0] = looks.axes[1] = looks.axes[2] = pack_vec(0, 0, 0);
+	looks.o = looks.axes[0] = looks.axes[1] = looks.axes[2] = v3_16(0, 0, 0);
 	looks.strength = 0;
 	looks.part = 0;
 	for (uint left = a->n_slots ? ~lanes & 0xffffu : 0; left; left &= left - 1)
@@ -436,10 +435,10 @@ WIDE_VECTORS static inline packf take(const struct field *f, const float *row, u
 	return out;
 }
 
-WIDE_VECTORS static inline struct pack_vec take_vec(const struct field *f, const float (*rows)[CAMERA_TILE][COLUMNS],
+WIDE_VECTORS static inline struct vec3_16 take_vec(const struct field *f, const float (*rows)[CAMERA_TILE][COLUMNS],
                                                     uint row, uint column)
 {
-	return pack_vec(take(f, rows[0][row], column), take(f, rows[1][row], column), take(f, rows[2][row], column));
+	return v3_16(take(f, rows[0][row], column), take(f, rows[1][row], column), take(f, rows[2][row], column));
 }
 
 /* Sixteen numbers of a row of the tile itself. */
@@ -448,9 +447,9 @@ WIDE_VECTORS static inline packf own(const float *row)
 	return *(const pack_loose_floats *)(row + LEFT);
 }
 
-WIDE_VECTORS static inline struct pack_vec own_vec(const float (*rows)[CAMERA_TILE][COLUMNS], uint row)
+WIDE_VECTORS static inline struct vec3_16 own_vec(const float (*rows)[CAMERA_TILE][COLUMNS], uint row)
 {
-	return pack_vec(own(rows[0][row]), own(rows[1][row]), own(rows[2][row]));
+	return v3_16(own(rows[0][row]), own(rows[1][row]), own(rows[2][row]));
 }
 
 /* As dome_add_block for the pixels of a row of a layer. */
@@ -458,7 +457,7 @@ WIDE_VECTORS static inline void add_blocks(const struct field *f, uint row, uint
 {
 	packf alike[4] = { 0, 0, 0, 0 };
 	packi few;
-	const struct pack_vec from = own_vec(f->layer[layer].from, row), n = own_vec(f->layer[layer].normal, row);
+	const struct vec3_16 from = own_vec(f->layer[layer].from, row), n = own_vec(f->layer[layer].normal, row);
 	const packi first = vload16(0, f->first), column = PACK_LANES + (int)LEFT;
 	const uint begin = dome_first(f->low + row, f->bottom, f->top) - f->low,
 		   end = min(begin + DOME_BLOCK, f->top - f->low);
@@ -469,12 +468,12 @@ WIDE_VECTORS static inline void add_blocks(const struct field *f, uint row, uint
 		for (uint by = begin; by < end; by++)
 			for (uint i = 0; i < f->layers[by]; i++) {
 				const struct layer *l = &f->layer[i];
-				const struct pack_vec apart = pack_sub(take_vec(f, l->from, by, bx), from);
-				const packf off = pack_dot(n, apart);
+				const struct vec3_16 apart = v3_sub(take_vec(f, l->from, by, bx), from);
+				const packf off = v3_dot(n, apart);
 				const packi self = by == row && i == layer ? first + (int)bx == column : (packi)(0);
 				const packi faces = self | ((take(f, l->strength[by], bx) > 0.0f) &
-				                            (pack_dot(n, take_vec(f, l->normal, by, bx)) > 0.9f));
-				const packi same = faces & (self | (off * off <= 0.1f * pack_dot(apart, apart)));
+				                            (v3_dot(n, take_vec(f, l->normal, by, bx)) > 0.9f));
+				const packi same = faces & (self | (off * off <= 0.1f * v3_dot(apart, apart)));
 
 				for (uint k = 0; k < 4; k++) {
 					const packf light = take(f, l->sum[k][by], bx);

@@ -424,7 +424,7 @@ WIDE_VECTORS static inline void pack_unsnap(struct pack *p, uint bits)
 	packf px[3], py[3], at;
 
 	at = pack_plane_at(&depth, x + (float)view->sample[0] * 0.00390625f, y + (float)-view->sample[1] * 0.00390625f);
-	p->depth = pack_clamp01(p->material->polygon_offset & 4u ? at + pack_offset(p, bits) : at);
+	p->depth = clamp01(p->material->polygon_offset & 4u ? at + pack_offset(p, bits) : at);
 	for (int k = 0; k < 3; k++) {
 		px[k] = p->px[k] - x;
 		py[k] = p->py[k] - y;

@@ -10,7 +10,7 @@
 /* As pixel_depth_steps. */
 WIDE_VECTORS static inline packu pack_depth_steps(packf depth, uint bits)
 {
-	depth = pack_clamp01(depth);
+	depth = clamp01(depth);
 	if (bits > 24)
 		return select((packu)(0xffffffffu),
 		              convert_uint16(select((packf)(0), depth, depth < 1.0f) * 2147483648.0f) << 1,
@@ -36,7 +36,7 @@ WIDE_VECTORS static inline packi pack_compare(uint func, packu a, packu b)
 /* As blend_round. */
 WIDE_VECTORS static inline packu pack_code(packf x)
 {
-	return as_uint16(convert_int16(pack_round(pack_clamp01(x) * 255.0f)));
+	return as_uint16(convert_int16(pack_round(clamp01(x) * 255.0f)));
 }
 
 /* As blend_factor. s, d: source and destination of a channel, with their alphas */

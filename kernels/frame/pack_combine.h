@@ -31,7 +31,7 @@ WIDE_VECTORS static inline struct pack_color pack_combine(uint mode, uint format
 		           mode == GL_ADD && format == GL_INTENSITY   ? p->c[3] + s[3] :
 		                                                        p->c[3] * s[3];
 	for (int i = 0; i < 4 && mode == GL_ADD; i++)
-		out.c[i] = pack_clamp01(out.c[i]);
+		out.c[i] = clamp01(out.c[i]);
 	return out;
 }
 
@@ -117,7 +117,7 @@ WIDE_VECTORS static inline packf pack_scaled(packf value, uint function, float s
 	if (function == GL_DOT3_RGB_EXT || function == GL_DOT3_RGBA_EXT)
 		scale = 1.0f;
 	value *= scale;
-	return combine_leaves_range(function) || scale != 1.0f ? pack_clamp01(value) : value;
+	return combine_leaves_range(function) || scale != 1.0f ? clamp01(value) : value;
 }
 
 /*

@@ -115,7 +115,7 @@ WIDE_VECTORS static inline void pack_put(packf *number, packf value, packi mask)
 WIDE_VECTORS static inline void pack_put_surface(const struct tables *t, const struct pack *p,
                                                  const struct pack_surface *s, packi mask, struct pack_pixels *to)
 {
-	const struct pack_vec normal = pack_normal(t, p, s), at = pack_place_at(s, p->weight);
+	const struct vec3_16 normal = pack_normal(t, p, s), at = pack_place_at(s, p->weight);
 
 	pack_put(&to->normal[0], normal.x, mask);
 	pack_put(&to->normal[1], normal.y, mask);
@@ -171,7 +171,7 @@ WIDE_VECTORS static inline packf pack_encode(const struct compose_request *r, pa
 {
 	if (r->display)
 		return x;
-	return any_pack(as_int16(x) != as_int16(before)) ? pack_linear(x) : known;
+	return any_pack(as_int16(x) != as_int16(before)) ? encode_linear(x) : known;
 }
 
 /* The part that one step adds to a sum, as compose_channel has it. display, before: after and before the step, not

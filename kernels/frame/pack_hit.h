@@ -15,7 +15,7 @@ struct pack_points {
 	uint lanes;
 	struct pack p;
 	struct pack_surface surface;
-	struct pack_vec d, back; /* as the rays have it; against it, length 1 */
+	struct vec3_16 d, back;  /* as the rays have it; against it, length 1 */
 	packf t, t_min;          /* of hits */
 };
 
@@ -78,8 +78,8 @@ WIDE_VECTORS static inline void pack_place_hits(const struct tables *t, __global
 	pack_load(t, 1, 1, &q->list, q->lanes, p);
 	pack_gather_from((__global const float *)rays, ray, o);
 	pack_gather_from((__global const float *)rays, ray + 4, d);
-	q->d = pack_vec(d[0], d[1], d[2]);
-	q->back = pack_scale(pack_normalize(q->d), (packf)(-1));
+	q->d = v3_16(d[0], d[1], d[2]);
+	q->back = v3_scale(v3_normalize(q->d), (packf)(-1));
 	q->t = p->depth;
 	q->t_min = o[3];
 	p->weight[0] = 1.0f - p->b1 - p->b2;
@@ -90,7 +90,7 @@ WIDE_VECTORS static inline void pack_place_hits(const struct tables *t, __global
 		pack_divide_weights(e, bent, p->weight);
 	pack_surface_through(p, e, bent, &q->surface);
 	pack_measure(p, &q->surface);
-	behind = pack_dot(q->surface.plane, q->d) > 0.0f;
+	behind = v3_dot(q->surface.plane, q->d) > 0.0f;
 	p->front = material->front_face == GL_CW ? behind : ~behind;
 }
 
@@ -134,7 +134,7 @@ WIDE_VECTORS static inline void pack_texture_hits(const struct tables *t, const 
 
 /* As struct split. */
 struct pack_split {
-	struct pack_vec normal;
+	struct vec3_16 normal;
 	packf mirrored, through, base, eta, cosine, cosine_beyond;
 };
 
@@ -160,7 +160,7 @@ WIDE_VECTORS static inline packi pack_enters(const struct pack *p)
 }
 
 /* As split_light. d: length as split_light takes it */
-WIDE_VECTORS static inline void pack_split_light(const struct tables *t, const struct pack_points *q, struct pack_vec d,
+WIDE_VECTORS static inline void pack_split_light(const struct tables *t, const struct pack_points *q, struct vec3_16 d,
                                                  struct pack_split *s)
 {
 	__global const struct scene_material *m = q->p.material;
@@ -170,7 +170,7 @@ WIDE_VECTORS static inline void pack_split_light(const struct tables *t, const s
 	s->normal = pack_normal(t, &q->p, &q->surface);
 	s->base = 1.0f - mirrored - through;
 	s->eta = select((packf)(glass_ior(m)), (packf)(1.0f / glass_ior(m)), pack_enters(&q->p));
-	s->cosine = pack_clamp01(-pack_dot(s->normal, d));
+	s->cosine = clamp01(-v3_dot(s->normal, d));
 	s->cosine_beyond = 0.0f;
 	if (through > 0.0f)
 		fresnel = pack_fresnel(s->eta, s->cosine, &s->cosine_beyond);
@@ -188,19 +188,19 @@ struct pack_branches {
 };
 
 /* As branch_on_side. */
-WIDE_VECTORS static inline struct pack_vec pack_on_side(struct pack_vec d, struct pack_vec plane)
+WIDE_VECTORS static inline struct vec3_16 pack_on_side(struct vec3_16 d, struct vec3_16 plane)
 {
-	const packf into = pack_dot(d, plane);
+	const packf into = v3_dot(d, plane);
 
-	return pack_choose(d, pack_normalize(pack_sub(d, pack_scale(plane, 1.001f * into))), into < 0.0f);
+	return v3_choose(into < 0.0f, v3_normalize(v3_sub(d, v3_scale(plane, 1.001f * into))), d);
 }
 
 /* Rays of some lanes in a direction, as branch and stage_ray have them. */
-WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint lanes, struct pack_vec direction,
-                                            struct pack_vec weight, packu kind, packu medium, struct pack_branches *b)
+WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint lanes, struct vec3_16 direction,
+                                            struct vec3_16 weight, packu kind, packu medium, struct pack_branches *b)
 {
-	const struct pack_vec o = pack_ray_origin(q->p.weight, &q->surface, direction, q->back);
-	const packf most = fmax(fmax(weight.x, weight.y), weight.z);
+	const struct vec3_16 o = pack_ray_origin(q->p.weight, &q->surface, direction, q->back);
+	const packf most = v3_most(weight);
 	const packu depth = b->depth + 1;
 
 	for (uint left = lanes & pack_bits(most > PATH_LEAST); left; left &= left - 1) {
@@ -223,8 +223,8 @@ WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint la
 }
 
 /* As branch_normal. */
-WIDE_VECTORS static inline struct pack_vec pack_mirror_normal(const struct tables *t, const struct pack *p,
-                                                              struct pack_vec n)
+WIDE_VECTORS static inline struct vec3_16 pack_mirror_normal(const struct tables *t, const struct pack *p,
+                                                             struct vec3_16 n)
 {
 	const uint kind = p->material->surface.hidden & (SCENE_NEAR_MIRROR | SCENE_NO_NORMALS);
 
@@ -233,24 +233,24 @@ WIDE_VECTORS static inline struct pack_vec pack_mirror_normal(const struct table
 
 /* As branch_mirror, of what is smooth. */
 WIDE_VECTORS static inline void pack_branch_mirror(const struct tables *t, const struct pack_points *q, uint lanes,
-                                                   struct pack_vec d, const struct pack_split *s,
-                                                   struct pack_vec weight, packu kind, struct pack_branches *b)
+                                                   struct vec3_16 d, const struct pack_split *s, struct vec3_16 weight,
+                                                   packu kind, struct pack_branches *b)
 {
-	const struct pack_vec n = pack_mirror_normal(t, &q->p, s->normal), plane = q->surface.plane;
-	const struct pack_vec away = pack_sub(d, pack_scale(n, 2.0f * pack_dot(d, n)));
-	const struct pack_vec side = pack_choose(plane, pack_scale(plane, (packf)(-1)), pack_dot(plane, d) > 0.0f);
+	const struct vec3_16 n = pack_mirror_normal(t, &q->p, s->normal), plane = q->surface.plane;
+	const struct vec3_16 away = v3_sub(d, v3_scale(n, 2.0f * v3_dot(d, n)));
+	const struct vec3_16 side = v3_choose(v3_dot(plane, d) > 0.0f, v3_scale(plane, (packf)(-1)), plane);
 
 	pack_branch(q, lanes, pack_on_side(away, side), weight, kind, b->medium, b);
 }
 
 /* As branch_mirror, of fragments' materials that are rough. */
-static inline void pack_branch_rough(const struct leave_arguments *a, const struct pack_points *q, struct pack_vec d,
-                                     const struct pack_split *s, struct pack_vec weight, packu kind,
+static inline void pack_branch_rough(const struct leave_arguments *a, const struct pack_points *q, struct vec3_16 d,
+                                     const struct pack_split *s, struct vec3_16 weight, packu kind,
                                      struct pack_branches *b)
 {
-	const struct pack_vec n = pack_mirror_normal(&a->tables, &q->p, s->normal), plane = q->surface.plane;
-	const struct pack_vec side = pack_choose(plane, pack_scale(plane, (packf)(-1)), pack_dot(plane, d) > 0.0f);
-	struct pack_vec away = pack_sub(d, pack_scale(n, 2.0f * pack_dot(d, n))), across, along, off;
+	const struct vec3_16 n = pack_mirror_normal(&a->tables, &q->p, s->normal), plane = q->surface.plane;
+	const struct vec3_16 side = v3_choose(v3_dot(plane, d) > 0.0f, v3_scale(plane, (packf)(-1)), plane);
+	struct vec3_16 away = v3_sub(d, v3_scale(n, 2.0f * v3_dot(d, n))), across, along, off;
 	packf right = 0, up = 0;
 
 	for (uint left = q->lanes; left; left &= left - 1) {
@@ -263,21 +263,21 @@ static inline void pack_branch_rough(const struct leave_arguments *a, const stru
 		LANE(right, float, lane) = radius * M_COS(turn);
 		LANE(up, float, lane) = radius * M_SIN(turn);
 	}
-	pack_basis(away, &across, &along);
-	off = pack_add(pack_scale(across, right), pack_scale(along, up));
-	away = pack_normalize(pack_add(away, pack_scale(off, (packf)(q->p.material->surface.roughness))));
+	sample_basis(away, &across, &along);
+	off = v3_add(v3_scale(across, right), v3_scale(along, up));
+	away = v3_normalize(v3_add(away, v3_scale(off, (packf)(q->p.material->surface.roughness))));
 	pack_branch(q, q->lanes, pack_on_side(away, side), weight, kind, b->medium, b);
 }
 
 /* As branch_through. */
 WIDE_VECTORS static inline void pack_branch_through(const struct tables *t, const struct pack_points *q, uint lanes,
-                                                    struct pack_vec d, const struct pack_split *s,
-                                                    struct pack_vec weight, packu kind, struct pack_branches *b)
+                                                    struct vec3_16 d, const struct pack_split *s, struct vec3_16 weight,
+                                                    packu kind, struct pack_branches *b)
 {
-	const struct pack_vec on = pack_normalize(
-		pack_add(pack_scale(d, s->eta), pack_scale(s->normal, s->eta * s->cosine - s->cosine_beyond)));
-	const struct pack_vec plane = q->surface.plane;
-	const struct pack_vec side = pack_choose(plane, pack_scale(plane, (packf)(-1)), pack_dot(plane, d) < 0.0f);
+	const struct vec3_16 on = v3_normalize(
+		v3_add(v3_scale(d, s->eta), v3_scale(s->normal, s->eta * s->cosine - s->cosine_beyond)));
+	const struct vec3_16 plane = q->surface.plane;
+	const struct vec3_16 side = v3_choose(v3_dot(plane, d) < 0.0f, v3_scale(plane, (packf)(-1)), plane);
 	const uint material = (uint)(q->p.material - t->materials);
 
 	pack_branch(q, lanes, pack_on_side(on, side), weight, kind,
@@ -285,74 +285,22 @@ WIDE_VECTORS static inline void pack_branch_through(const struct tables *t, cons
 }
 
 /* As glass_tint. from_vertices: as they are lit */
-static inline struct pack_vec pack_tint(const struct tables *t, const struct pack_points *q,
-                                        const struct pack_texturing *texturing, const struct pack_color *from_vertices)
+static inline struct vec3_16 pack_tint(const struct tables *t, const struct pack_points *q,
+                                       const struct pack_texturing *texturing, const struct pack_color *from_vertices)
 {
 	const struct pack_color c = pack_albedo(t, &q->list, &q->p, q->lanes, texturing, from_vertices);
 
-	return pack_vec(sqrt(pack_clamp01(c.c[0])), sqrt(pack_clamp01(c.c[1])), sqrt(pack_clamp01(c.c[2])));
-}
-
-WIDE_VECTORS static inline struct pack_vec pack_mul(struct pack_vec a, struct pack_vec b)
-{
-	return pack_vec(a.x * b.x, a.y * b.y, a.z * b.z);
+	return v3_16(sqrt(clamp01(c.c[0])), sqrt(clamp01(c.c[1])), sqrt(clamp01(c.c[2])));
 }
 
 /* --- Ways that chance chooses ------------------------------------------------------------------------------------ */
 
-/* As sample_hash. */
-WIDE_VECTORS static inline packu pack_hash(packu x)
-{
-	x ^= x >> 16;
-	x *= 0x7feb352du;
-	x ^= x >> 15;
-	x *= 0x846ca68bu;
-	return x ^ x >> 16;
-}
-
-/* As sample_reverse. */
-WIDE_VECTORS static inline packu pack_reverse(packu x)
-{
-	x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
-	x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
-	x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
-	x = (x >> 8 & 0x00ff00ffu) | (x & 0x00ff00ffu) << 8;
-	return x >> 16 | x << 16;
-}
-
-/* As sample_mix_upwards. */
-WIDE_VECTORS static inline packu pack_mix_upwards(packu x, packu seed)
-{
-	x ^= x * 0x3d20adeau;
-	x += seed;
-	x *= seed >> 16 | 1u;
-	x ^= x * 0x05526c56u;
-	return x ^ x * 0x53a22864u;
-}
-
-/* As sample_sobol. */
-WIDE_VECTORS static inline void pack_sobol(packu seed, uint index, packf *u, packf *v)
-{
-	const packu hash = pack_hash(seed), place = pack_reverse(pack_mix_upwards((packu)(sample_reverse(index)), hash));
-	packu second = place;
-
-	second ^= second >> 16;
-	second ^= (second & 0xff00ff00u) >> 8;
-	second ^= (second & 0xf0f0f0f0u) >> 4;
-	second ^= (second & 0xccccccccu) >> 2;
-	second ^= (second & 0xaaaaaaaau) >> 1;
-	*u = convert_float16(pack_reverse(pack_mix_upwards(place, pack_hash(hash ^ 0x85ebca6bu))) >> 8) *
-	     5.9604644775390625e-8f;
-	*v = convert_float16(pack_reverse(pack_mix_upwards(second, pack_hash(hash ^ 0xc2b2ae35u))) >> 8) *
-	     5.9604644775390625e-8f;
-}
-
 /* As sample_cosine. */
-static inline struct pack_vec pack_cosine(struct pack_vec n, packf u, packf v, uint lanes)
+static inline struct vec3_16 pack_cosine(struct vec3_16 n, packf u, packf v, uint lanes)
 {
 	const packf radius = sqrt(u), turn = 6.283185307179586f * v;
 	packf right = 0, up = 0;
-	struct pack_vec across, along;
+	struct vec3_16 across, along;
 
 	for (uint left = lanes; left; left &= left - 1) { /* one by one: vectors of cosines have other last bits */
 		const uint lane = popcount((left & -left) - 1);
@@ -360,9 +308,8 @@ static inline struct pack_vec pack_cosine(struct pack_vec n, packf u, packf v, u
 		LANE(right, float, lane) = LANE(radius, const float, lane) * M_COS(LANE(turn, const float, lane));
 		LANE(up, float, lane) = LANE(radius, const float, lane) * M_SIN(LANE(turn, const float, lane));
 	}
-	pack_basis(n, &across, &along);
-	return pack_normalize(
-		pack_add(pack_add(pack_scale(across, right), pack_scale(along, up)), pack_scale(n, sqrt(1.0f - u))));
+	sample_basis(n, &across, &along);
+	return v3_normalize(v3_add(v3_add(v3_scale(across, right), v3_scale(along, up)), v3_scale(n, sqrt(1.0f - u))));
 }
 
 /*
@@ -370,25 +317,25 @@ static inline struct pack_vec pack_cosine(struct pack_vec n, packf u, packf v, u
  * for it. seed: of the paths. albedo: as light
  */
 static inline void pack_branch_scatter(const struct shade_hit_arguments *a, const struct pack_points *q, uint lanes,
-                                       packu seed, const packf *albedo, struct pack_vec weight, packu kind,
+                                       packu seed, struct vec3_16 albedo, struct vec3_16 weight, packu kind,
                                        struct pack_branches *b)
 {
 	const uint frame = sample_hash(a->frame);
-	const struct pack_vec n = pack_normal(&a->tables, &q->p, &q->surface), plane = q->surface.plane;
-	const struct pack_vec side = pack_choose(plane, pack_scale(plane, (packf)(-1)), pack_dot(plane, q->d) > 0.0f);
-	struct pack_vec on;
+	const struct vec3_16 n = pack_normal(&a->tables, &q->p, &q->surface), plane = q->surface.plane;
+	const struct vec3_16 side = v3_choose(v3_dot(plane, q->d) > 0.0f, v3_scale(plane, (packf)(-1)), plane);
+	struct vec3_16 on;
 	packf u, v, share;
 	packi goes_on;
 
-	pack_sobol((seed + SAMPLE_CHOICE) ^ frame, a->sample, &u, &v);
-	weight = pack_vec(weight.x * albedo[0], weight.y * albedo[1], weight.z * albedo[2]);
-	share = fmax(fmax(weight.x, weight.y), weight.z) / PATH_ROULETTE;
+	sample_sobol((seed + SAMPLE_CHOICE) ^ frame, a->sample, &u, &v);
+	weight = v3_mul(weight, albedo);
+	share = v3_most(weight) / PATH_ROULETTE;
 	goes_on = ~(share < 1.0f);
-	weight = pack_choose(pack_scale(weight, 1.0f / share), weight, goes_on);
+	weight = v3_choose(goes_on, weight, v3_scale(weight, 1.0f / share));
 	lanes &= pack_bits(goes_on | (v < share));
 	if (!lanes)
 		return;
-	pack_sobol((seed + SAMPLE_BOUNCE) ^ frame, a->sample, &u, &v);
+	sample_sobol((seed + SAMPLE_BOUNCE) ^ frame, a->sample, &u, &v);
 	on = pack_cosine(n, u, v, lanes);
 	pack_branch(q, lanes, pack_on_side(on, side), weight, kind, b->medium, b);
 }

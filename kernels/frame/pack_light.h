@@ -16,7 +16,7 @@ struct pack_lit_here {
 /* The colours of points under white light, and where they look. */
 struct pack_matter {
 	packf ambient[4], diffuse[4], specular[4], shininess;
-	struct pack_vec at, normal, to_viewer;
+	struct vec3_16 at, normal, to_viewer;
 	packi has_gloss;
 	__global const struct scene_material *material;
 };
@@ -69,7 +69,7 @@ static inline struct pack_color pack_matte_color(const struct tables *t, const s
 /* --- Lights ------------------------------------------------------------------------------------------------------ */
 
 /* As light_spot. */
-static inline packf pack_spot(__global const struct scene_light *light, struct pack_vec to_light)
+static inline packf pack_spot(__global const struct scene_light *light, struct vec3_16 to_light)
 {
 	const struct vec3 axis = v3_normalize(v3_load(light->spot_direction_eye));
 	packf along;
@@ -77,7 +77,7 @@ static inline packf pack_spot(__global const struct scene_light *light, struct p
 
 	if (light->spot_cutoff_deg == 180.0f)
 		return 1.0f;
-	along = -pack_dot(to_light, pack_vec(axis.x, axis.y, axis.z));
+	along = -v3_dot(to_light, v3_16(axis.x, axis.y, axis.z));
 	inside = ~(along <= fmax(cos(light->spot_cutoff_deg * 0.017453292519943295f), 0.0f));
 	if (light->spot_exponent != 0.0f)
 		along = pow(along, (packf)(light->spot_exponent));
@@ -87,23 +87,22 @@ static inline packf pack_spot(__global const struct scene_light *light, struct p
 }
 
 /* As light_strength. */
-static inline packf pack_strength(__global const struct scene_light *light, struct pack_vec at,
-                                  struct pack_vec *to_light)
+static inline packf pack_strength(__global const struct scene_light *light, struct vec3_16 at, struct vec3_16 *to_light)
 {
 	const float w = light->position_eye[3];
 	const struct vec3 place = w != 0.0f ? v3_scale(v3_load(light->position_eye), 1.0f / w) : v3_load(light->position_eye);
-	struct pack_vec to = pack_vec(place.x, place.y, place.z);
+	struct vec3_16 to = v3_16(place.x, place.y, place.z);
 	packf strength = 1.0f, distance;
 
 	if (w != 0.0f) {
-		to = pack_sub(to, at);
-		distance = sqrt(pack_dot(to, to));
+		to = v3_sub(to, at);
+		distance = sqrt(v3_dot(to, to));
 		strength = light->attenuation[1] == 0.0f && light->attenuation[2] == 0.0f ?
 		                   (packf)(1.0f / light->attenuation[0]) :
 		                   1.0f / (light->attenuation[0] +
 		                           distance * (light->attenuation[1] + distance * light->attenuation[2]));
 	}
-	*to_light = pack_normalize(to);
+	*to_light = v3_normalize(to);
 	return strength * pack_spot(light, *to_light);
 }
 
@@ -127,15 +126,15 @@ static inline void pack_seen(const struct shade_arguments *a, const struct pack_
 static inline void pack_add_light(const struct pack_matter *m, __global const struct scene_light *light, uint lanes,
                                   const packf *share, packu bit, int apart, struct pack_lit_here *out)
 {
-	struct pack_vec to_light;
-	const packf strength = pack_strength(light, m->at, &to_light), n_l = pack_dot(m->normal, to_light);
+	struct vec3_16 to_light;
+	const packf strength = pack_strength(light, m->at, &to_light), n_l = v3_dot(m->normal, to_light);
 	const packi is_lit = (n_l > 0.0f) & (strength > 0.0f);
 	const packf matte_share = n_l * strength;
 	packf shine = 1.0f, sum = 0.0f;
 
 	lanes &= pack_bits(is_lit);
 	if (lanes && any_pack(m->has_gloss)) {
-		const packf n_h = fmax(pack_dot(m->normal, pack_normalize(pack_add(to_light, m->to_viewer))), (packf)(0));
+		const packf n_h = fmax(v3_dot(m->normal, v3_normalize(v3_add(to_light, m->to_viewer))), (packf)(0));
 
 		shine = light_is_own_power(m->material, light) ? pow(n_l, n_l) :
 		                                                 select((packf)(1), pow(n_h, m->shininess), m->shininess != 0.0f);
@@ -201,7 +200,7 @@ static inline void pack_lit_matter(const struct tables *t, const struct pack_lis
 {
 	const packi side = pack_side(p);
 	struct pack_color current;
-	struct pack_vec n;
+	struct vec3_16 n;
 
 	for (int i = 0; i < 4; i++)
 		current.c[i] = 0.0f;
@@ -209,7 +208,7 @@ static inline void pack_lit_matter(const struct tables *t, const struct pack_lis
 		current = pack_current_color(t, list, p, lanes);
 	pack_material(p->material, side, &current, matter, out);
 	n = pack_vertex_normals(t, p);
-	matter->normal = pack_choose(n, pack_scale(n, (packf)(-1)), side);
+	matter->normal = v3_choose(side, v3_scale(n, (packf)(-1)), n);
 }
 
 /* Of what only rules light. */
@@ -233,9 +232,9 @@ static inline void pack_light_begin(__global const struct scene_material *m, str
                                     struct pack_lit_here *out)
 {
 	matter->material = m;
-	matter->to_viewer = pack_vec((packf)(0), (packf)(0), (packf)(1));
+	matter->to_viewer = v3_16((packf)(0), (packf)(0), (packf)(1));
 	if (m->local_viewer)
-		matter->to_viewer = pack_normalize(pack_scale(matter->at, (packf)(-1)));
+		matter->to_viewer = v3_normalize(v3_scale(matter->at, (packf)(-1)));
 	for (int i = 0; i < 4; i++)
 		out->secondary.c[i] = 0.0f;
 	out->lights = 0;
@@ -246,8 +245,8 @@ static inline void pack_light_end(const struct pack_matter *matter, struct pack_
 {
 	out->color.c[3] = matter->diffuse[3];
 	for (int i = 0; i < 4; i++) {
-		out->color.c[i] = pack_clamp_vertex(out->color.c[i]);
-		out->secondary.c[i] = pack_clamp_vertex(out->secondary.c[i]);
+		out->color.c[i] = clamp_vertex(out->color.c[i]);
+		out->secondary.c[i] = clamp_vertex(out->secondary.c[i]);
 	}
 }
 

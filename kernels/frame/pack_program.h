@@ -164,7 +164,7 @@ WIDE_VECTORS static inline void pack_compute(struct pack_run *run, const struct 
 		if (in->operation >= SCENE_OP_MAD)
 			c = pack_operand(run, program, in->c, flags & SCENE_STEP_C ? i : 0, flags & SCENE_NEGATE_C);
 		a = pack_result(in->operation, a, b, c);
-		pack_keep(run, in->to + i, flags & SCENE_SATURATE ? pack_clamp01(a) : a,
+		pack_keep(run, in->to + i, flags & SCENE_SATURATE ? clamp01(a) : a,
 		          flags & SCENE_UNMASKED ? run->lanes : run->mask);
 	}
 }
@@ -279,20 +279,20 @@ WIDE_VECTORS static inline void pack_weights_at(const struct tables *t, const st
                                                 packf *weight)
 {
 	const packf x = convert_float16(p->x) + 0.5f, y = (float)height - (convert_float16(p->row) + 0.5f);
-	const struct pack_vec at = pack_vec(2.0f * (x - p->view->viewport[0]) / p->view->viewport[2] - 1.0f,
-	                                    2.0f * (y - p->view->viewport[1]) / p->view->viewport[3] - 1.0f, 1.0f);
-	struct pack_vec corner[3];
+	const struct vec3_16 at = v3_16(2.0f * (x - p->view->viewport[0]) / p->view->viewport[2] - 1.0f,
+	                                2.0f * (y - p->view->viewport[1]) / p->view->viewport[3] - 1.0f, 1.0f);
+	struct vec3_16 corner[3];
 	packf sum;
 
 	for (int k = 0; k < 3; k++) {
 		packf clip[4];
 
 		pack_vertex(t, p, k, PACK_CLIP, clip);
-		corner[k] = pack_vec(clip[0], clip[1], clip[3]);
+		corner[k] = v3_16(clip[0], clip[1], clip[3]);
 	}
-	weight[0] = pack_dot(pack_cross(corner[1], corner[2]), at);
-	weight[1] = pack_dot(pack_cross(corner[2], corner[0]), at);
-	weight[2] = pack_dot(pack_cross(corner[0], corner[1]), at);
+	weight[0] = v3_dot(v3_cross(corner[1], corner[2]), at);
+	weight[1] = v3_dot(v3_cross(corner[2], corner[0]), at);
+	weight[2] = v3_dot(v3_cross(corner[0], corner[1]), at);
 	sum = weight[0] + weight[1] + weight[2];
 	sum = select((packf)(0), 1.0f / sum, sum != 0.0f);
 	for (int i = 0; i < 3; i++)
@@ -523,7 +523,7 @@ static inline void pack_run_program(const struct shade_arguments *a, const struc
 	for (int i = 0; i < 4; i++) {
 		const packf c = run->registers[program_color(program, a->output) + i];
 
-		color.c[i] = p->material->unclamped & 1 ? c : pack_clamp01(c);
+		color.c[i] = p->material->unclamped & 1 ? c : clamp01(c);
 	}
 	for (uint left = program->head->sets_depth && !a->n_slots ? own : 0; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);

@@ -7,13 +7,17 @@
 #include "kernels/frame/pack_surface.h"
 #include "kernels/frame/shadow.h"
 
+#include "kernels/sixteen_lanes.h"
+#include "kernels/frame/sample_lanes.h"
+#include "kernels/one_lanes.h"
+
 /* As point_ray_origin. back: against the rays that led to the fragments, length 1 */
-WIDE_VECTORS static inline struct pack_vec pack_ray_origin(const packf *of_point, const struct pack_surface *s,
-                                                           struct pack_vec towards, struct pack_vec back)
+WIDE_VECTORS static inline struct vec3_16 pack_ray_origin(const packf *of_point, const struct pack_surface *s,
+                                                          struct vec3_16 towards, struct vec3_16 back)
 {
-	const struct pack_vec n = pack_choose(s->plane, pack_scale(s->plane, (packf)(-1)), pack_dot(s->plane, towards) < 0.0f);
-	struct pack_vec at = pack_place_at(s, of_point);
-	const packf size = pack_max(pack_extent(at) * POINT_SNAPPING, s->rounding);
+	const struct vec3_16 n = v3_choose(v3_dot(s->plane, towards) < 0.0f, v3_scale(s->plane, (packf)(-1)), s->plane);
+	struct vec3_16 at = pack_place_at(s, of_point);
+	const packf size = pack_max(v3_extent(at) * POINT_SNAPPING, s->rounding);
 	packf weight[3], sum = 0.0f;
 
 	for (int i = 0; i < 3; i++) {
@@ -26,17 +30,17 @@ WIDE_VECTORS static inline struct pack_vec pack_ray_origin(const packf *of_point
 	for (int i = 0; i < 3; i++)
 		weight[i] /= sum;
 	at = pack_place_at(s, weight);
-	at = pack_choose(at, pack_add(at, pack_scale(back, size)), pack_dot(n, back) > 0.0f);
-	return pack_add(at, pack_scale(n, size));
+	at = v3_choose(v3_dot(n, back) > 0.0f, v3_add(at, v3_scale(back, size)), at);
+	return v3_add(at, v3_scale(n, size));
 }
 
 /* As struct shadow_curve. */
 struct pack_curve {
 	packi smooth;
-	struct pack_vec normal[3];
+	struct vec3_16 normal[3];
 };
 
-WIDE_VECTORS static inline packi pack_is_other(struct pack_vec a, struct pack_vec b)
+WIDE_VECTORS static inline packi pack_is_other(struct vec3_16 a, struct vec3_16 b)
 {
 	return (a.x != b.x) | (a.y != b.y) | (a.z != b.z);
 }
@@ -54,8 +58,8 @@ WIDE_VECTORS static inline void pack_curve_of(const struct tables *t, const stru
 		packf row[4];
 
 		pack_vertex(t, p, k, (packu)(PACK_NORMAL), row);
-		c->normal[k] = pack_scale(pack_normalize(pack_vec(row[0], row[1], row[2])), side);
-		cosine[k] = pack_dot(s->plane, c->normal[k]);
+		c->normal[k] = v3_scale(v3_normalize(v3_16(row[0], row[1], row[2])), side);
+		cosine[k] = v3_dot(s->plane, c->normal[k]);
 	}
 	c->smooth = (pack_is_other(c->normal[0], c->normal[1]) | pack_is_other(c->normal[0], c->normal[2])) &
 	            ~((pack_max(pack_max(cosine[0], cosine[1]), cosine[2]) > SHADOW_BOTH_SIDES) &
@@ -80,28 +84,28 @@ WIDE_VECTORS static inline packi pack_lit_weights(const packf *of_point, const p
 
 /* As shadow_curve_origin, for lanes that are smooth; others start on their triangles. straight: what point_ray_origin
  * goes towards */
-WIDE_VECTORS static inline struct pack_vec pack_curve_origin(const struct pack_curve *c, const struct pack_surface *s,
-                                                             const packf *of_point, struct pack_vec to, int positional,
-                                                             struct pack_vec straight, struct pack_vec back)
+WIDE_VECTORS static inline struct vec3_16 pack_curve_origin(const struct pack_curve *c, const struct pack_surface *s,
+                                                            const packf *of_point, struct vec3_16 to, int positional,
+                                                            struct vec3_16 straight, struct vec3_16 back)
 {
-	struct pack_vec n = pack_vec(0, 0, 0), lift = n, at, curved;
+	struct vec3_16 n = v3_16(0, 0, 0), lift = n, at, curved;
 	packf cosine[3], weight[3];
 	packi bent;
 
 	if (!any_pack(c->smooth))
 		return pack_ray_origin(of_point, s, straight, back);
 	for (int i = 0; i < 3; i++)
-		cosine[i] = pack_dot(c->normal[i], pack_normalize(positional ? pack_sub(to, s->corner[i]) : to));
+		cosine[i] = v3_dot(c->normal[i], v3_normalize(positional ? v3_sub(to, s->corner[i]) : to));
 	bent = c->smooth & pack_lit_weights(of_point, cosine, weight);
 	at = pack_place_at(s, weight);
 	for (int i = 0; i < 3; i++) {
-		const packf below = pack_max(pack_dot(pack_sub(s->corner[i], at), c->normal[i]), (packf)(0));
+		const packf below = pack_max(v3_dot(v3_sub(s->corner[i], at), c->normal[i]), (packf)(0));
 
-		lift = pack_add(lift, pack_scale(c->normal[i], weight[i] * below));
-		n = pack_add(n, pack_scale(c->normal[i], weight[i]));
+		lift = v3_add(lift, v3_scale(c->normal[i], weight[i] * below));
+		n = v3_add(n, v3_scale(c->normal[i], weight[i]));
 	}
-	curved = pack_add(pack_ray_origin(weight, s, n, back), lift);
-	return any_pack(~bent) ? pack_choose(pack_ray_origin(of_point, s, straight, back), curved, bent) : curved;
+	curved = v3_add(pack_ray_origin(weight, s, n, back), lift);
+	return any_pack(~bent) ? v3_choose(bent, curved, pack_ray_origin(of_point, s, straight, back)) : curved;
 }
 
 /* Whether pack_light_rays knows all that a material asks for. */
@@ -120,18 +124,17 @@ static inline __global const struct scene_light *pack_lights_of(const struct tab
 /* As stage_light_ray for a light without a size and a material of pack_knows_rays: rays[place[lane]] of the lanes that
  * want one. */
 static inline void pack_light_rays(const struct pack *p, const struct pack_surface *s, const struct pack_curve *curve,
-                                   struct pack_vec back, __global const struct scene_light *light, uint lanes,
+                                   struct vec3_16 back, __global const struct scene_light *light, uint lanes,
                                    const uint *place, __global struct ray *rays)
 {
 	const int positional = light->position_eye[3] != 0.0f;
 	const float scale = positional ? 1.0f / light->position_eye[3] : 1.0f;
-	const struct pack_vec to = pack_vec((packf)(light->position_eye[0] * scale), (packf)(light->position_eye[1] * scale),
-	                                       (packf)(light->position_eye[2] * scale));
-	const struct pack_vec straight = positional ? pack_sub(to, pack_place_at(s, p->weight)) : to;
-	const packi away = (pack_dot(s->plane, straight) < 0.0f) != (pack_dot(s->plane, back) < 0.0f);
+	const struct vec3_16 to = v3_same(v3_scale(v3_load(light->position_eye), scale));
+	const struct vec3_16 straight = positional ? v3_sub(to, pack_place_at(s, p->weight)) : to;
+	const packi away = (v3_dot(s->plane, straight) < 0.0f) != (v3_dot(s->plane, back) < 0.0f);
 	const packi within = p->material->surface.hidden & SCENE_FACETED ? (packi)(0) : ~curve->smooth & away;
-	const struct pack_vec o = pack_curve_origin(curve, s, p->weight, to, positional, straight, back);
-	const struct pack_vec d = positional ? pack_sub(to, o) : to;
+	const struct vec3_16 o = pack_curve_origin(curve, s, p->weight, to, positional, straight, back);
+	const struct vec3_16 d = positional ? v3_sub(to, o) : to;
 	packf from[4], way[4];
 
 	pack_turn_rows(o.x, o.y, o.z, select((packf)(0), (packf)(SHADOW_WITHIN), within), from);

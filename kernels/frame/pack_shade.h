@@ -177,7 +177,7 @@ WIDE_VECTORS static inline packf pack_fog(const struct tables *t, const struct p
 	for (int k = 0; k < 3; k++)
 		pack_vertex(t, p, k, (packu)(PACK_NORMAL), v[k]);
 	c = v[0][3] * p->weight[0] + v[1][3] * p->weight[1] + v[2][3] * p->weight[2];
-	return pack_clamp01(m->fog_end == m->fog_start ? c - m->fog_end : (m->fog_end - c) / (m->fog_end - m->fog_start));
+	return clamp01(m->fog_end == m->fog_start ? c - m->fog_end : (m->fog_end - c) / (m->fog_end - m->fog_start));
 }
 
 /* The lanes' vertices' numbers become those of their parts' corners. row: [3][4] */
@@ -244,7 +244,7 @@ pack_finish_without(const struct tables *t, const struct pack *p, const struct p
 	for (int i = 0; i < 3 && m->fog; i++)
 		color.c[i] = color.c[i] * fog + m->fog_color[i] * (1.0f - fog);
 	for (int i = 0; i < 4; i++)
-		color.c[i] = pack_clamp01(color.c[i]);
+		color.c[i] = clamp01(color.c[i]);
 	return color;
 }
 
@@ -279,12 +279,12 @@ static inline struct pack_color pack_matte(const struct tables *t, const struct 
 	if (!m->lighting)
 		return m->surface.light_unit == SCENE_LIGHT_IN_COLORS ? pack_matte_color(t, list, p, lanes) : out;
 	for (uint i = 0; i < 4 && !(m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE)); i++)
-		out.c[i] = pack_clamp01(select((packf)(m->front.diffuse[i]), (packf)(m->back.diffuse[i]), back));
+		out.c[i] = clamp01(select((packf)(m->front.diffuse[i]), (packf)(m->back.diffuse[i]), back));
 	if (!(m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE)))
 		return out;
 	pack_vertex_colors(t, list, p, lanes, v);
 	for (int i = 0; i < 4; i++)
-		out.c[i] = pack_clamp01(pack_mix(p, v[0][i], v[1][i], v[2][i]));
+		out.c[i] = clamp01(pack_mix(p, v[0][i], v[1][i], v[2][i]));
 	return out;
 }
 
@@ -315,17 +315,17 @@ static inline packu pack_radiant_lights(const struct tables *t, const struct pac
 	__global const struct scene_material *m = p->material;
 	__global const struct scene_light *light = t->lights + (m->surface.relit ? m->surface.light_first : m->light_first);
 	const uint count = m->surface.relit ? m->surface.light_count : m->light_count;
-	const struct pack_vec n = pack_normal(t, p, s), at = pack_place_at(s, p->weight);
+	const struct vec3_16 n = pack_normal(t, p, s), at = pack_place_at(s, p->weight);
 	packu lights = 0;
 
 	for (uint i = 0; i < count && pack_takes_light(m); i++) {
-		struct pack_vec to_light;
+		struct vec3_16 to_light;
 		packf strength;
 
 		if (!(light[i].radius >= 0.0f))
 			continue;
 		strength = pack_strength(&light[i], at, &to_light);
-		lights |= select((packu)(0), (packu)(1u << i), (strength > 0.0f) & (pack_dot(n, to_light) > 0.0f));
+		lights |= select((packu)(0), (packu)(1u << i), (strength > 0.0f) & (v3_dot(n, to_light) > 0.0f));
 	}
 	return lights;
 }
@@ -335,11 +335,11 @@ static inline packu pack_radiant_lights(const struct tables *t, const struct pac
  * from_vertices, secondary: as they are lit
  * albedo: receives point_albedo as light, where the material takes any
  */
-static inline struct pack_vec pack_radiance(const struct shade_arguments *a, const struct pack_list *list,
-                                            const struct pack *p, const struct pack_surface *s, uint lanes,
-                                            const struct pack_texturing *texturing,
-                                            const struct pack_color *from_vertices, const struct pack_color *secondary,
-                                            packf *albedo)
+static inline struct vec3_16 pack_radiance(const struct shade_arguments *a, const struct pack_list *list,
+                                           const struct pack *p, const struct pack_surface *s, uint lanes,
+                                           const struct pack_texturing *texturing,
+                                           const struct pack_color *from_vertices, const struct pack_color *secondary,
+                                           struct vec3_16 *albedo)
 {
 	const struct tables *t = &a->tables;
 	__global const struct scene_material *m = p->material;
@@ -348,46 +348,36 @@ static inline struct pack_vec pack_radiance(const struct shade_arguments *a, con
 	const struct vec3 by_rule = stage_light(a->transport, v3_load(m->surface.emission));
 	const struct vec3 front = stage_light(a->transport, v3_load(m->front.emission)),
 			  back = stage_light(a->transport, v3_load(m->back.emission));
-	packf sum[3] = { 0.0f, 0.0f, 0.0f };
-	struct pack_vec n, at;
+	struct vec3_16 sum = v3_16(0, 0, 0), n, at;
 	struct pack_color c;
 
 	if (!pack_takes_light(m)) {
 		c = pack_finish(t, p, texturing, from_vertices, secondary);
-		for (int k = 0; k < 3; k++)
-			sum[k] = pack_as_light(a->transport, c.c[k] + m->surface.emission[k]);
-		return pack_vec(sum[0], sum[1], sum[2]);
+		return stage_light(a->transport,
+		                   v3_add(v3_16(c.c[0], c.c[1], c.c[2]), v3_same(v3_load(m->surface.emission))));
 	}
 	n = pack_normal(t, p, s);
 	at = pack_place_at(s, p->weight);
 	for (uint i = 0; i < count; i++) {
-		struct pack_vec to_light;
-		const packf strength = pack_strength(&light[i], at, &to_light), cosine = pack_dot(n, to_light);
+		struct vec3_16 to_light, sent;
+		const packf strength = pack_strength(&light[i], at, &to_light), cosine = v3_dot(n, to_light);
 		packf share[3];
 
 		pack_seen(a, list, lanes, i, share);
-		for (int k = 0; k < 3; k++)
-			sum[k] = select(sum[k],
-			                sum[k] + pack_as_light(a->transport, light[i].diffuse[k] * strength) * cosine *
-			                                 share[k],
-			                cosine > 0.0f);
+		sent = v3_scale(stage_light(a->transport, v3_scale(v3_same(v3_load(light[i].diffuse)), strength)),
+		                cosine);
+		sum = v3_choose(cosine > 0.0f, v3_add(sum, v3_mul(sent, v3_16(share[0], share[1], share[2]))), sum);
 	}
 	c = pack_albedo(t, list, p, lanes, texturing, from_vertices);
-	for (int k = 0; k < 3; k++)
-		albedo[k] = pack_as_light(a->transport, c.c[k]);
-	sum[0] = sum[0] * albedo[0] + by_rule.x;
-	sum[1] = sum[1] * albedo[1] + by_rule.y;
-	sum[2] = sum[2] * albedo[2] + by_rule.z;
-	if (!m->lighting)
-		return pack_vec(sum[0], sum[1], sum[2]);
-	return pack_add(pack_choose(pack_vec(front.x, front.y, front.z), pack_vec(back.x, back.y, back.z), pack_side(p)),
-	                pack_vec(sum[0], sum[1], sum[2]));
+	*albedo = stage_light(a->transport, v3_16(c.c[0], c.c[1], c.c[2]));
+	sum = v3_add(v3_mul(sum, *albedo), v3_same(by_rule));
+	return m->lighting ? v3_add(v3_choose(pack_side(p), v3_same(back), v3_same(front)), sum) : sum;
 }
 
 /* As pixel_nudge. */
 WIDE_VECTORS static inline packf pack_nudge(packf x)
 {
-	const packf codes = pack_clamp01(x) * 255.0f, code = pack_round(codes), rest = codes - code;
+	const packf codes = clamp01(x) * 255.0f, code = pack_round(codes), rest = codes - code;
 	const packf moved = (code + select((packf)(-0.46f), (packf)(0.46f), rest > 0.0f)) / 255.0f;
 
 	return select(x, moved, fabs(rest) > 0.46f);
@@ -415,15 +405,16 @@ static inline struct pack_color pack_direct_light(const struct shade_arguments *
 {
 	struct pack_surface s;
 	struct pack_color out;
-	struct pack_vec sum;
-	packf albedo[3];
+	struct vec3_16 sum;
+	struct vec3_16 albedo;
 
 	pack_surface(&a->tables, p, &s);
 	*lights = pack_radiant_lights(&a->tables, p, &s);
-	sum = pack_radiance(a, list, p, &s, lanes, texturing, from_vertices, secondary, albedo);
-	out.c[0] = pack_as_number(a->transport, sum.x);
-	out.c[1] = pack_as_number(a->transport, sum.y);
-	out.c[2] = pack_as_number(a->transport, sum.z);
+	sum = stage_number(a->transport,
+	                   pack_radiance(a, list, p, &s, lanes, texturing, from_vertices, secondary, &albedo));
+	out.c[0] = sum.x;
+	out.c[1] = sum.y;
+	out.c[2] = sum.z;
 	out.c[3] = 0.0f;
 	return out;
 }

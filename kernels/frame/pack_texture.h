@@ -7,21 +7,10 @@
  */
 #pragma once
 
+#include "kernels/frame/pack_vector.h"
 #include "kernels/gl/fragment.h"
-#include "kernels/rays/lanes.h"
 
 /* --- Numbers ----------------------------------------------------------------------------------------------------- */
-
-WIDE_VECTORS static inline packf pack_clamp01(packf x)
-{
-	return select((packf)(0), select((packf)(1), x, x < 1.0f), x > 0.0f);
-}
-
-/* As v4_clamp_vertex. */
-WIDE_VECTORS static inline packf pack_clamp_vertex(packf x)
-{
-	return pack_clamp01(select((packf)(1), x, x < 1.0f));
-}
 
 /* What rint and floor do; PoCL's own take twenty instructions. From 2^23 on numbers have no fraction. */
 WIDE_VECTORS static inline packf pack_round(packf x)

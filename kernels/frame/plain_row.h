@@ -184,7 +184,7 @@ static inline void plain_send_rays(const struct plain_arguments *a, const struct
                                    struct pack_surface *s, packu lights, uint lanes)
 {
 	__global const struct scene_light *light = pack_lights_of(&a->tables, p->material);
-	const struct pack_vec back = pack_scale(pack_normalize(pack_view_direction(p, a->height)), (packf)(-1));
+	const struct vec3_16 back = v3_scale(v3_normalize(pack_view_direction(p, a->height)), (packf)(-1));
 	struct pack_curve curve;
 
 	pack_measure(p, s);

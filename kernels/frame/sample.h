@@ -15,22 +15,7 @@
 #define SAMPLE_DOME 0x60000u
 #define SAMPLE_EMITTER 0x70000u
 
-/* Mix the bits of a number: multiply, shift and xor (constants found by C. Wellons, "Prospecting for hash
- * functions"). */
-static inline uint32_t sample_hash(uint32_t x)
-{
-	x ^= x >> 16;
-	x *= 0x7feb352du;
-	x ^= x >> 15;
-	x *= 0x846ca68bu;
-	x ^= x >> 16;
-	return x;
-}
-
-static inline float sample_unit(uint32_t x)
-{
-	return (float)(x >> 8) * 5.9604644775390625e-8f; /* 2^-24: below 1 */
-}
+#include "kernels/frame/sample_lanes.h"
 
 /*
  * Number `index` of the sequence with steps 1/p and 1/p^2, p^3 = p + 1 (M. Roberts, "The unreasonable effectiveness of
@@ -40,47 +25,6 @@ static inline void sample_square(uint32_t seed, uint32_t index, float *u, float 
 {
 	*u = sample_unit(index * 3242174889u + sample_hash(seed));
 	*v = sample_unit(index * 2447445414u + sample_hash(seed ^ 0x9e3779b9u));
-}
-
-/* The bits of a number, the last one first. */
-static inline uint32_t sample_reverse(uint32_t x)
-{
-	x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
-	x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
-	x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
-	x = (x >> 8 & 0x00ff00ffu) | (x & 0x00ff00ffu) << 8;
-	return x >> 16 | x << 16;
-}
-
-/* Each bit is exchanged or kept, as a hash of the bits below it says (S. Laine and T. Karras, "Stratified Sampling for
-   Stochastic Transparency", 2011; constants after N. Vegdahl, "Building a Better LK Hash", 2021). */
-static inline uint32_t sample_mix_upwards(uint32_t x, uint32_t seed)
-{
-	x ^= x * 0x3d20adeau;
-	x += seed;
-	x *= seed >> 16 | 1u;
-	x ^= x * 0x05526c56u;
-	x ^= x * 0x53a22864u;
-	return x;
-}
-
-/*
- * Point `index` of Sobol's (0,2)-sequence, its digits exchanged as A. Owen has it ("Randomly Permuted (t,m,s)-Nets and
- * (t,s)-Sequences", 1995) and its points in an order of their own, which makes seeds independent of each other (B.
- * Burley, "Practical Hash-based Owen Scrambling", 2020). All points from 0 up to a power of two lie evenly.
- */
-static inline void sample_sobol(uint32_t seed, uint32_t index, float *u, float *v)
-{
-	const uint32_t hash = sample_hash(seed), place = sample_reverse(sample_mix_upwards(sample_reverse(index), hash));
-	uint32_t second = place; /* Sobol's matrix of dimension 2, applied by halves: a row is Pascal's triangle modulo 2 */
-
-	second ^= second >> 16;
-	second ^= (second & 0xff00ff00u) >> 8;
-	second ^= (second & 0xf0f0f0f0u) >> 4;
-	second ^= (second & 0xccccccccu) >> 2;
-	second ^= (second & 0xaaaaaaaau) >> 1;
-	*u = sample_unit(sample_reverse(sample_mix_upwards(place, sample_hash(hash ^ 0x85ebca6bu))));
-	*v = sample_unit(sample_reverse(sample_mix_upwards(second, sample_hash(hash ^ 0xc2b2ae35u))));
 }
 
 /* Sample `index` of a purpose. frame: 0: as sample_square has it; else Sobol's, by this number of the frame */
@@ -135,15 +79,6 @@ static inline float sample_time(uint32_t turn, uint32_t index)
 {
 	/* steps of the golden ratio, in 2^-32: evenly, and not as the places above */
 	return sample_unit(index * 2654435769u + (turn % SAMPLE_TURNS) * 0x40000000u + 0x80000000u) - 0.5f;
-}
-
-/* Two unit vectors that are at right angles to a unit vector and to each other. */
-static inline void sample_basis(struct vec3 n, struct vec3 *a, struct vec3 *b)
-{
-	struct vec3 other = M_ABS(n.x) < 0.6f ? v3(1.0f, 0.0f, 0.0f) : v3(0.0f, 1.0f, 0.0f);
-
-	*a = v3_normalize(v3_cross(n, other));
-	*b = v3_cross(n, *a);
 }
 
 /* A point of the disk of radius 1 that stands across `n`, even in area. */

@@ -135,7 +135,7 @@ KERNEL_OF(float16) void hit_ray_packet(KERNEL_ARGUMENTS(hit_ray))
 
 /* What paths carry. */
 struct way {
-	struct pack_vec weight;
+	struct vec3_16 weight;
 	packu kind;
 	struct pack_branches branches;
 };
@@ -149,7 +149,7 @@ WIDE_VECTORS static inline void load_paths(const struct shade_hit_arguments *a, 
 
 	pack_gather_from((__global const float *)a->paths, place, row);
 	pack_gather_from((__global const float *)a->paths, place + 3, last);
-	way->weight = pack_vec(row[0], row[1], row[2]);
+	way->weight = v3_16(row[0], row[1], row[2]);
 	/* those of PATH_NEAR that hit */
 	way->kind = select(as_uint16(last[1]), (packu)(PATH_REFLECT), as_uint16(last[1]) == PATH_NEAR);
 	way->branches.rays = a->next_rays;
@@ -179,7 +179,7 @@ static inline void absorb(const struct tables *t, const struct pack_points *q, s
 }
 
 /* As hit_color. lit: receives the colours as the vertices have them */
-static inline struct pack_vec color_of(const struct shade_arguments *s, const struct pack_points *q,
+static inline struct vec3_16 color_of(const struct shade_arguments *s, const struct pack_points *q,
                                        const struct pack_texturing *texturing, struct pack_kept *kept,
                                        struct pack_color *lit)
 {
@@ -199,11 +199,11 @@ static inline struct pack_vec color_of(const struct shade_arguments *s, const st
 			color.c[i] = select(color.c[i], relit.c[i], pack_mask(dimmed));
 	}
 	color = pack_direct(s, &q->list, &q->p, q->lanes, texturing, &color, &lights);
-	return pack_vec(color.c[0], color.c[1], color.c[2]);
+	return v3_16(color.c[0], color.c[1], color.c[2]);
 }
 
 static inline void store_hits(const struct shade_hit_arguments *a, const struct pack_points *q,
-                              const struct pack_vec *out, const struct way *way)
+                              const struct vec3_16 *out, const struct way *way)
 {
 	for (uint left = q->lanes; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1), item = q->list.item[lane];
@@ -220,7 +220,7 @@ static inline void shade_hits(const struct shade_hit_arguments *a, const struct 
 	struct pack_texturing texturing;
 	struct pack_split split;
 	struct pack_color lit;
-	struct pack_vec out;
+	struct vec3_16 out;
 	struct way way;
 	uint on;
 
@@ -234,27 +234,27 @@ static inline void shade_hits(const struct shade_hit_arguments *a, const struct 
 		split.base += split.mirrored;
 		split.mirrored = 0;
 	}
-	out = pack_mul(way.weight, pack_scale(out, split.base));
+	out = v3_mul(way.weight, v3_scale(out, split.base));
 	on = q->lanes & pack_bits(way.branches.depth < a->depth);
 	if (on && (m->surface.reflect > 0.0f || m->surface.transmit > 0.0f))
-		pack_branch_mirror(&a->tables, q, on, q->d, &split, pack_scale(way.weight, split.mirrored), way.kind, &way.branches);
+		pack_branch_mirror(&a->tables, q, on, q->d, &split, v3_scale(way.weight, split.mirrored), way.kind, &way.branches);
 	on &= pack_bits(split.through > 0.0f);
 	if (on)
 		pack_branch_through(
 			&a->tables, q, on, q->d, &split,
-			pack_mul(pack_scale(way.weight, split.through), pack_tint(&a->tables, q, &texturing, &lit)),
+			v3_mul(v3_scale(way.weight, split.through), pack_tint(&a->tables, q, &texturing, &lit)),
 			way.kind, &way.branches);
 	store_hits(a, q, &out, &way);
 }
 
 /* As hit_bound. kind: the paths' own */
-static inline struct pack_vec bound(const struct shade_hit_arguments *a, const struct way *way, packu kind,
-                                    struct pack_vec light)
+static inline struct vec3_16 bound(const struct shade_hit_arguments *a, const struct way *way, packu kind,
+                                    struct vec3_16 light)
 {
-	const packf most = fmax(fmax(light.x, light.y), light.z);
+	const packf most = v3_most(light);
 	const packi bounced = (way->branches.depth > 1) | ((way->branches.depth == 1) & (kind == PATH_DIFFUSE));
 
-	return a->most > 0.0f ? pack_choose(light, pack_scale(light, a->most / most), bounced & (most > a->most)) : light;
+	return a->most > 0.0f ? v3_choose(bounced & (most > a->most), v3_scale(light, a->most / most), light) : light;
 }
 
 /* The same where light is followed. */
@@ -263,9 +263,9 @@ static inline void shade_bounces(const struct shade_hit_arguments *a, const stru
 {
 	struct pack_texturing texturing;
 	struct pack_color lit, secondary;
-	packf albedo[3] = { 0.0f, 0.0f, 0.0f };
+	struct vec3_16 albedo = v3_16(0, 0, 0);
 	packu pixel = 0, kind = 0;
-	struct pack_vec out;
+	struct vec3_16 out;
 	struct way way;
 	uint on;
 
@@ -277,12 +277,12 @@ static inline void shade_bounces(const struct shade_hit_arguments *a, const stru
 	}
 	pack_texture_hits(&a->tables, &q->list, &q->p, q->lanes, &texturing);
 	pack_lit_from_vertices(&a->tables, &q->p, &lit, &secondary);
-	out = pack_radiance(s, &q->list, &q->p, &q->surface, q->lanes, &texturing, &lit, &secondary, albedo);
+	out = pack_radiance(s, &q->list, &q->p, &q->surface, q->lanes, &texturing, &lit, &secondary, &albedo);
 	absorb(&a->tables, q, &way);
-	out = bound(a, &way, kind, pack_mul(way.weight, out));
+	out = bound(a, &way, kind, v3_mul(way.weight, out));
 	on = pack_takes_light(m) ? q->lanes & pack_bits(way.branches.depth < a->depth) : 0;
 	if (on)
-		pack_branch_scatter(a, q, on, pack_hash(pack_hash(pixel) + way.branches.depth * 4 + kind), albedo,
+		pack_branch_scatter(a, q, on, sample_hash(sample_hash(pixel) + way.branches.depth * 4 + kind), albedo,
 		                    way.weight, way.kind, &way.branches);
 	store_hits(a, q, &out, &way);
 }
@@ -328,7 +328,7 @@ static inline void leave_lanes(const struct leave_arguments *a, struct pack_poin
 	struct pack_texturing texturing;
 	struct pack_branches branches;
 	struct pack_split split;
-	struct pack_vec weight;
+	struct vec3_16 weight;
 	uint through, kind;
 
 	q->p.material = m;
@@ -336,8 +336,8 @@ static inline void leave_lanes(const struct leave_arguments *a, struct pack_poin
 	pack_locate(&a->tables, a->windows, a->width, 1, &q->list, q->lanes, &q->p);
 	pack_surface(&a->tables, &q->p, &q->surface);
 	pack_measure(&q->p, &q->surface);
-	q->d = pack_normalize(pack_view_direction(&q->p, 1));
-	q->back = pack_scale(pack_normalize(q->d), (packf)(-1));
+	q->d = v3_normalize(pack_view_direction(&q->p, 1));
+	q->back = v3_scale(v3_normalize(q->d), (packf)(-1));
 	pack_split_light(&a->tables, q, q->d, &split);
 	branches.rays = a->next_rays;
 	branches.paths = a->next_paths;
@@ -354,7 +354,7 @@ static inline void leave_lanes(const struct leave_arguments *a, struct pack_poin
 		v3_store(s->mirrored, mirrored);
 		v3_store(s->beauty, v3_sub(mirrored, v3_scale(direct, LANE(split.through, float, lane))));
 	}
-	weight = pack_vec(split.mirrored, split.mirrored, split.mirrored);
+	weight = v3_16(split.mirrored, split.mirrored, split.mirrored);
 	kind = m->surface.hidden & SCENE_NEAR_MIRROR ? PATH_NEAR : PATH_REFLECT;
 	if (m->surface.roughness > 0.0f)
 		pack_branch_rough(a, q, q->d, &split, weight, (packu)(kind), &branches);
@@ -364,7 +364,7 @@ static inline void leave_lanes(const struct leave_arguments *a, struct pack_poin
 	if (through) {
 		pack_texture_hits(&a->tables, &q->list, &q->p, q->lanes, &texturing);
 		pack_lit_from_vertices(&a->tables, &q->p, &lit, &secondary);
-		weight = pack_scale(pack_tint(&a->tables, q, &texturing, &lit), split.through);
+		weight = v3_scale(pack_tint(&a->tables, q, &texturing, &lit), split.through);
 		pack_branch_through(&a->tables, q, through, q->d, &split, weight, (packu)(PATH_REFRACT), &branches);
 	}
 	for (uint left = q->lanes; left; left &= left - 1) {

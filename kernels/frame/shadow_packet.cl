@@ -21,7 +21,7 @@ static inline void send_lanes(const struct shadow_ray_arguments *a, const struct
 {
 	struct pack_surface surface;
 	struct pack_curve curve;
-	struct pack_vec back;
+	struct vec3_16 back;
 	struct pack p;
 
 	p.material = m;
@@ -30,7 +30,7 @@ static inline void send_lanes(const struct shadow_ray_arguments *a, const struct
 	pack_surface(&a->tables, &p, &surface);
 	pack_measure(&p, &surface);
 	pack_curve_of(&a->tables, &p, &surface, &curve);
-	back = pack_scale(pack_normalize(pack_view_direction(&p, 1)), (packf)(-1));
+	back = v3_scale(v3_normalize(pack_view_direction(&p, 1)), (packf)(-1));
 	pack_light_rays(&p, &surface, &curve, back, &pack_lights_of(&a->tables, m)[slot], lanes, list->item, rays);
 }
 

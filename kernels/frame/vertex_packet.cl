@@ -12,7 +12,7 @@ struct vertex_pack {
 	__global const struct scene_material *m;
 	uint v; /* of the first one, in the mesh */
 	packf obj[4], eye[4], clip[4];
-	struct pack_vec normal;
+	struct vec3_16 normal;
 	packf length2; /* of the normal, before it is made 1 */
 };
 
@@ -63,12 +63,12 @@ WIDE_VECTORS static inline packi load_normals(const struct tables *t, struct ver
 	if (p->g->attributes & SCENE_HAS_NORMAL) /* three numbers each, and what stands before them: positions do before
 	                                            the first */
 		load_fours(t->attributes + p->g->normal + p->v * 3 - 1, 3, n);
-	p->normal = pack_vec(r[0] * n[1] + r[1] * n[2] + r[2] * n[3], r[4] * n[1] + r[5] * n[2] + r[6] * n[3],
+	p->normal = v3_16(r[0] * n[1] + r[1] * n[2] + r[2] * n[3], r[4] * n[1] + r[5] * n[2] + r[6] * n[3],
 	                     r[8] * n[1] + r[9] * n[2] + r[10] * n[3]);
-	p->length2 = pack_dot(p->normal, p->normal);
+	p->length2 = v3_dot(p->normal, p->normal);
 	longest = fmax(fmax(fabs(p->normal.x), fabs(p->normal.y)), fabs(p->normal.z));
 	if (p->m->normalize)
-		p->normal = pack_normalize(p->normal);
+		p->normal = v3_normalize(p->normal);
 	return (longest < FLT_MIN) | ((p->length2 >= FLT_MIN) & (p->length2 < INFINITY));
 }
 
@@ -105,7 +105,7 @@ WIDE_VECTORS static inline void store_window(__global const struct view *view, c
 WIDE_VECTORS static inline void clamp_color(uint per_vertex, packf *c)
 {
 	for (int i = 0; i < 4; i++)
-		c[i] = per_vertex ? pack_clamp_vertex(c[i]) : pack_clamp01(c[i]);
+		c[i] = per_vertex ? clamp_vertex(c[i]) : clamp01(c[i]);
 }
 
 /* As light_vertex. */
@@ -118,8 +118,8 @@ WIDE_VECTORS static inline void light_side(const struct tables *t, const struct 
 
 	pack_material(m, back ? (packi)(-1) : (packi)(0), color, &matter, &out->color);
 	matter.has_gloss |= p->length2 > 1.01f; /* whatever the power of a shorter one's, it is a number: none of it is none */
-	matter.at = pack_vec(p->eye[0], p->eye[1], p->eye[2]);
-	matter.normal = back ? pack_scale(p->normal, (packf)(-1)) : p->normal;
+	matter.at = v3_16(p->eye[0], p->eye[1], p->eye[2]);
+	matter.normal = back ? v3_scale(p->normal, (packf)(-1)) : p->normal;
 	pack_light_begin(m, &matter, out);
 	for (uint i = 0; i < m->light_count; i++)
 		pack_add_light(&matter, &t->lights[m->light_first + i], (1u << PACK_SIZE) - 1, all, (packu)(1u << i),

@@ -97,18 +97,6 @@ static inline int stage_is_path(uint32_t transport)
 	return transport >= TRANSPORT_PATH;
 }
 
-/* A colour of GL as light, where that is what is followed. */
-static inline struct vec3 stage_light(uint32_t transport, struct vec3 c)
-{
-	return transport == TRANSPORT_LINEAR ? v3(encode_linear(c.x), encode_linear(c.y), encode_linear(c.z)) : c;
-}
-
-/* And back: what the pixel's operations of OpenGL take. */
-static inline struct vec3 stage_number(uint32_t transport, struct vec3 c)
-{
-	return transport == TRANSPORT_LINEAR ? v3(encode_display(c.x), encode_display(c.y), encode_display(c.z)) : c;
-}
-
 /*
  * A lit surface as physics would have it: emission, and what lights send straight; no ambient light, nothing clamped.
  * A surface that GL does not light shows its colour as it is.
