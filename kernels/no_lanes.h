@@ -8,11 +8,17 @@
 #undef VEC4
 #undef V3
 #undef V4
+#undef LANED
 #undef SAME
+#undef IF_ALL
 #undef CHOOSE
 #undef CHOOSE3
 #undef MOST
+#undef ROUND
 #undef TO_REAL
+#undef TO_WORD
+#undef TO_INT
 #undef BITS
 #undef OF_BITS
 #undef AS_INT
+#undef AS_WORD

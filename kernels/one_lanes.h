@@ -6,10 +6,13 @@
  * REAL WORD INT  a float, a uint32_t and an int of each lane
  * MASK           what comparisons of them give; && || ! and ?: take it
  * VEC3 VEC4      vectors of REALs; V3 and V4 make one
+ * LANED(name)    a struct's name, which has a width of its own
  * SAME(x)        a float that all lanes share, where a REAL is needed; others are converted by (WORD)(x) and the like
+ * IF_ALL(x)      a MASK of what is true in all lanes or in none
  * CHOOSE(mask, yes, no), CHOOSE3  of REALs and vectors. Sixteen lanes work out both: no branch is spared
  * MOST(x, y)     the larger one; of a NaN, either
- * TO_REAL        the value of a WORD or an INT; BITS, OF_BITS, AS_INT: the same bits
+ * ROUND          to the nearest whole number, the even one of two
+ * TO_REAL TO_WORD TO_INT  the same value; BITS OF_BITS AS_INT AS_WORD: the same bits
  *
  * Sums are built up in variables, not in a struct that is returned: compilers leave that one in memory.
  */
@@ -24,11 +27,17 @@
 #define VEC4 struct vec4
 #define V3(x, y, z) v3(x, y, z)
 #define V4(x, y, z, w) v4(x, y, z, w)
+#define LANED(name) name
 #define SAME(x) (x)
+#define IF_ALL(x) (x)
 #define CHOOSE(mask, yes, no) ((mask) ? (yes) : (no))
 #define CHOOSE3(mask, yes, no) ((mask) ? (yes) : (no))
 #define MOST(x, y) M_MAX(x, y)
+#define ROUND(x) M_RINT(x)
 #define TO_REAL(x) ((float)(x))
+#define TO_WORD(x) ((uint32_t)(x))
+#define TO_INT(x) ((int)(x))
 #define BITS(x) M_BITS(x)
 #define OF_BITS(x) M_FLOAT(x)
 #define AS_INT(x) ((int)(x))
+#define AS_WORD(x) ((uint32_t)(x))

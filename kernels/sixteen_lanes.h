@@ -10,11 +10,17 @@
 #define VEC4 struct vec4_16
 #define V3(x, y, z) v3_16(x, y, z)
 #define V4(x, y, z, w) v4_16(x, y, z, w)
+#define LANED(name) name##_16
 #define SAME(x) ((packf)(x))
+#define IF_ALL(x) ((x) ? (packi)(-1) : (packi)(0))
 #define CHOOSE(mask, yes, no) ((mask) ? (yes) : (no))
 #define CHOOSE3(mask, yes, no) v3_choose(mask, yes, no)
 #define MOST(x, y) pack_max(x, y)
+#define ROUND(x) pack_round(x)
 #define TO_REAL(x) convert_float16(x)
+#define TO_WORD(x) convert_uint16(x)
+#define TO_INT(x) convert_int16(x)
 #define BITS(x) as_uint16(x)
 #define OF_BITS(x) as_float16(x)
 #define AS_INT(x) as_int16(x)
+#define AS_WORD(x) as_uint16(x)

@@ -10,52 +10,12 @@
 #include "kernels/gl/point.h"
 #include "kernels/frame/sample.h"
 
-/* --- Numbers ----------------------------------------------------------------------------------------------------- */
+/* Of a code's half width of 0.5: a half of 0.5 and more is good to 1/16 of a code. */
+#define COMPOSE_CODE_REACH 0.43f
 
-/* The bits of the nearest half, ties to even; beyond its range infinity. */
-static inline uint32_t compose_half(float x)
-{
-	uint32_t bits = M_BITS(x), size = bits & 0x7fffffffu;
-	uint32_t normal = (size - 0x38000000u + 0xfffu + (size >> 13 & 1u)) >> 13;
-	uint32_t small = M_BITS(M_FLOAT(size) + 0.5f) - 0x3f000000u; /* subnormal: floats from a half on have the same steps */
-	uint32_t odd = size > 0x7f800000u ? 0x7e00u : 0x7c00u;       /* 65536 and more, infinity, NaN */
-	uint32_t finite = size < 0x38800000u ? small : normal;
-
-	return (bits >> 16 & 0x8000u) | (size < 0x47800000u ? finite : odd);
-}
-
-/* A number as a half holds it; up to 65504. */
-static inline float compose_rounded(float x)
-{
-	uint32_t bits = M_BITS(x), size = bits & 0x7fffffffu;
-	uint32_t normal = (size + 0xfffu + (size >> 13 & 1u)) & ~0x1fffu;
-	uint32_t small = M_BITS((M_FLOAT(size) + 0.5f) - 0.5f);
-
-	return M_FLOAT((bits & 0x80000000u) | (size < 0x38800000u ? small : normal));
-}
+#include "kernels/frame/compose_lanes.h"
 
 /* --- Planes ------------------------------------------------------------------------------------------------------ */
-
-/* The rest of a sum, rounded as it is stored; what rounding alone leaves is no effect. */
-static inline float compose_effect(float rest, float of)
-{
-	return M_ABS(rest) > M_ABS(of) * 0.001953125f ? compose_rounded(rest) : 0.0f;
-}
-
-/*
- * GL's number moved off the borders between two of the frame buffer's 8-bit codes by more than halves and the encoding
- * change it: whoever rounds it to 8 bits again gets the code that GL's own rounding gives.
- */
-#define COMPOSE_CODE_REACH 0.43f /* of a code's half width of 0.5: a half of 0.5 and more is good to 1/16 of a code */
-
-static inline float compose_nudged(float gl)
-{
-	float steps = gl * 255.0f, code = M_RINT(steps);
-
-	float moved = (code + (steps > code ? COMPOSE_CODE_REACH : -COMPOSE_CODE_REACH)) / 255.0f;
-
-	return gl >= 0.0f && gl <= 1.0f && M_ABS(steps - code) > COMPOSE_CODE_REACH ? moved : gl;
-}
 
 /* A pixel's colours, r g b each. */
 #define COLOR_GL 0u

@@ -241,13 +241,14 @@ WIDE_VECTORS static inline void test_lanes(const struct plain_arguments *a, stru
 {
 	const uint bits = pixel_depth_bits(a->bits);
 	struct layer *layer = &row->layers[i];
-	const packu steps = pack_depth_steps(layer->depth, bits);
+	const packu steps = pixel_depth_steps(layer->depth, bits);
 	packi pass = pack_mask(lanes), shows;
 
 	if (m->alpha_test)
-		pass &= pack_compare(m->alpha_func, pack_code(layer->colors.gl.c[3]), (packu)(blend_round(m->alpha_ref)));
+		pass &= pixel_compare(m->alpha_func, blend_round(layer->colors.gl.c[3]),
+		                      (packu)(blend_round(m->alpha_ref)));
 	if (m->depth_test && bits) {
-		pass &= pack_compare(m->depth_func, steps, row->depth);
+		pass &= pixel_compare(m->depth_func, steps, row->depth);
 		if (m->depth_write) {
 			row->depth = select(row->depth, steps, pass);
 			pack_put(&row->pixels.depth, layer->depth, pass);
@@ -272,7 +273,8 @@ WIDE_VECTORS static inline void draw_channel(__global const struct scene_materia
                                              packu s_alpha, packu d_alpha, int opaque, packi lanes, packf *to)
 {
 	if (m->color_mask >> channel & 1)
-		pack_put(to, m->blend && !opaque ? pack_blend(m, channel, source, s_alpha, *to, d_alpha) : source, lanes);
+		pack_put(to, m->blend && !opaque ? blend_channel(m, channel, source, s_alpha, *to, d_alpha) : source,
+		         lanes);
 }
 
 /* Whether a channel of some lanes is the same in all parts of the pixels, and of the fragments. */
@@ -295,7 +297,8 @@ WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __gl
                                            struct pack_pixels *p)
 {
 	const struct plain_colors *c = &layer->colors;
-	const packu s_alpha = pack_code(c->gl.c[3]), d_alpha = pixel_alpha_bits(a->bits) ? pack_code(p->gl[3]) : (packu)(255);
+	const packu s_alpha = blend_round(c->gl.c[3]),
+		    d_alpha = pixel_alpha_bits(a->bits) ? blend_round(p->gl[3]) : (packu)(255);
 	const int solid = (m->surface.hidden & SCENE_SOLID) != 0, left_out = (m->surface.hidden & SCENE_LEFT_OUT) != 0;
 	const int special = solid | left_out | (is_mirrored && m->surface.transmit > 0.0f);
 
@@ -327,14 +330,14 @@ WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __gl
 /* As pixel_replaces. */
 WIDE_VECTORS static inline packi replaces(__global const struct scene_material *m, const struct plain_colors *c)
 {
-	const packu alpha = pack_code(c->gl.c[3]);
+	const packu alpha = blend_round(c->gl.c[3]);
 	packi same = -1;
 
 	for (int i = 0; i < 3 && m->blend; i++) {
-		const packf over = pack_blend(m, i, c->gl.c[i], alpha, (packf)(0), (packu)(0));
+		const packf over = blend_channel(m, i, c->gl.c[i], alpha, (packf)(0), (packu)(0));
 
-		same &= over == pack_blend(m, i, c->gl.c[i], alpha, (packf)(0.5f), (packu)(128)) &
-		        over == pack_blend(m, i, c->gl.c[i], alpha, (packf)(1), (packu)(255));
+		same &= over == blend_channel(m, i, c->gl.c[i], alpha, (packf)(0.5f), (packu)(128)) &
+		        over == blend_channel(m, i, c->gl.c[i], alpha, (packf)(1), (packu)(255));
 	}
 	return (m->color_mask & 7) == 7 ? same : (packi)(0);
 }

@@ -276,7 +276,7 @@ static inline uint shade_layer(const struct plain_arguments *a, const struct sha
 			shade_layer_lanes(a, s, row, i, same & ~layer->shaded, 0, &kept->pack);
 		switch (pack_covers(m)) {
 		case 1: covers |= same; break;
-		case 2: covers |= same & pack_bits(pack_code(layer->colors.gl.c[3]) == 255); break;
+		case 2: covers |= same & pack_bits(blend_round(layer->colors.gl.c[3]) == 255); break;
 		default: break;
 		}
 	}
@@ -419,9 +419,9 @@ KERNEL_OF(float16) void layered_start(KERNEL_ARGUMENTS(layered_start))
 /* A row's pixels as GL's frame buffer rounds them. */
 WIDE_VECTORS static inline packu frame_colors(const struct pack_pixels *p, uint alpha_bits)
 {
-	const packu alpha = alpha_bits ? pack_code(p->gl[3]) : (packu)(255);
+	const packu alpha = alpha_bits ? blend_round(p->gl[3]) : (packu)(255);
 
-	return pack_code(p->gl[0]) | pack_code(p->gl[1]) << 8 | pack_code(p->gl[2]) << 16 | alpha << 24;
+	return blend_round(p->gl[0]) | blend_round(p->gl[1]) << 8 | blend_round(p->gl[2]) << 16 | alpha << 24;
 }
 
 KERNEL_OF(float16) void layered_picture(KERNEL_ARGUMENTS(layered_picture))

@@ -9,6 +9,10 @@
 #include "kernels/frame/pack_encode.h"
 #include "kernels/frame/pack_ray.h"
 
+#include "kernels/sixteen_lanes.h"
+#include "kernels/frame/compose_lanes.h"
+#include "kernels/one_lanes.h"
+
 #if defined(__has_builtin) && !defined(LANES_PORTABLE)
 #if defined(__AVX512F__) && __has_builtin(__builtin_ia32_vcvtps2ph512_mask)
 #define PACK_HALF16 1
@@ -48,7 +52,7 @@ static inline struct pack_planes pack_planes_of(const struct compose_request *r,
 	return to;
 }
 
-/* As compose_half. */
+/* compose_half, by the processor's own conversion where it has one. */
 WIDE_VECTORS static inline ushort16 pack_half(packf x)
 {
 #if defined(PACK_HALF16) || defined(PACK_HALF8)
@@ -61,39 +65,8 @@ WIDE_VECTORS static inline ushort16 pack_half(packf x)
 	return (ushort16)(as_ushort8(__builtin_ia32_vcvtps2ph256(value.lo, 0)),
 	                  as_ushort8(__builtin_ia32_vcvtps2ph256(value.hi, 0)));
 #else
-	const packu bits = as_uint16(x), size = bits & 0x7fffffffu;
-	const packu normal = (size - 0x38000000u + 0xfffu + (size >> 13 & 1u)) >> 13;
-	const packu small = as_uint16(as_float16(size) + 0.5f) - 0x3f000000u;
-	const packu odd = select((packu)(0x7c00u), (packu)(0x7e00u), size > 0x7f800000u);
-	const packu finite = select(normal, small, size < 0x38800000u);
-
-	return convert_ushort16((bits >> 16 & 0x8000u) | select(odd, finite, size < 0x47800000u));
+	return convert_ushort16(compose_half(x));
 #endif
-}
-
-/* As compose_rounded. */
-WIDE_VECTORS static inline packf pack_rounded(packf x)
-{
-	const packu bits = as_uint16(x), size = bits & 0x7fffffffu;
-	const packu normal = (size + 0xfffu + (size >> 13 & 1u)) & ~0x1fffu;
-	const packu small = as_uint16((as_float16(size) + 0.5f) - 0.5f);
-
-	return as_float16((bits & 0x80000000u) | select(normal, small, size < 0x38800000u));
-}
-
-/* As compose_nudged. */
-WIDE_VECTORS static inline packf pack_nudged(packf gl)
-{
-	const packf steps = gl * 255.0f, code = pack_round(steps);
-	const packf moved = (code + select((packf)(-COMPOSE_CODE_REACH), (packf)(COMPOSE_CODE_REACH), steps > code)) / 255.0f;
-
-	return select(gl, moved, (gl >= 0.0f) & (gl <= 1.0f) & (fabs(steps - code) > COMPOSE_CODE_REACH));
-}
-
-/* As compose_effect. */
-WIDE_VECTORS static inline packf pack_effect(packf rest, packf of)
-{
-	return select((packf)(0), pack_rounded(rest), fabs(rest) > fabs(of) * 0.001953125f);
 }
 
 /* Whether any plane shows where surfaces lie. */
@@ -178,13 +151,13 @@ WIDE_VECTORS static inline packf pack_encode(const struct compose_request *r, pa
  * encoded */
 WIDE_VECTORS static inline packf pack_part_of(packf display, packf before, packf color, packf sum)
 {
-	return select((packf)(0), pack_rounded(color - sum), display != before);
+	return select((packf)(0), compose_rounded(color - sum), display != before);
 }
 
 /* A channel that no effect has a part in: GL's own colour alone. exact: it, encoded */
 WIDE_VECTORS static inline void pack_compose_gl(packf exact, int c, const struct pack_planes *to)
 {
-	const packf gl = pack_rounded(exact), relight = pack_effect(exact - gl, exact);
+	const packf gl = compose_rounded(exact), relight = compose_effect(exact - gl, exact);
 
 	pack_store_half(to, COMPOSE_BEAUTY + c, gl + relight + 0.0f);
 	pack_store_half(to, COMPOSE_GL + c, gl);
@@ -207,10 +180,10 @@ WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p
 	const packf direct = pack_encode(to->request, display_direct, display_shadowed, shadowed);
 	const packf mirrored = pack_encode(to->request, display_mirrored, display_direct, direct);
 	const packf beauty = pack_encode(to->request, display_beauty, display_mirrored, mirrored);
-	const packf gl = pack_rounded(exact), share = shadowed / exact;
-	const packf shadow = select((packf)(1), pack_rounded(select((packf)(0), share, share > 0.0f)),
+	const packf gl = compose_rounded(exact), share = shadowed / exact;
+	const packf shadow = select((packf)(1), compose_rounded(select((packf)(0), share, share > 0.0f)),
 	                            (gl > 0.0f) & (shadowed < exact));
-	const packf relight = pack_effect(direct - gl * shadow, direct), sum = gl * shadow + relight;
+	const packf relight = compose_effect(direct - gl * shadow, direct), sum = gl * shadow + relight;
 	const packf reflect = pack_part_of(display_mirrored, display_direct, mirrored, sum);
 	const packf refract = pack_part_of(display_beauty, display_mirrored, beauty, sum + reflect);
 
@@ -269,7 +242,7 @@ WIDE_VECTORS static inline void pack_encode_row(const struct pack_pixels *p, con
 	last->known = 1;
 	for (int c = 0; c < 3; c++) {
 		last->gl[c] = p->gl[c];
-		last->nudged[c] = pack_nudged(p->gl[c]);
+		last->nudged[c] = compose_nudged(p->gl[c]);
 		last->first[c] = r->normals ? select((packf)(0), p->normal[c] * 0.5f + 0.5f, p->drawn > 0.0f) : last->nudged[c];
 		last->exact[c] = last->first[c];
 	}

@@ -459,7 +459,7 @@ static inline void pack_store_program(const struct shade_arguments *a, const str
 	struct pack_color nudged = *color;
 
 	for (int i = 0; i < 3; i++)
-		nudged.c[i] = pack_nudge(color->c[i]);
+		nudged.c[i] = pixel_nudge(color->c[i]);
 	for (; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 		__global struct shaded *out = &a->shaded[list->item[lane]];

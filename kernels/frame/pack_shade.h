@@ -4,6 +4,7 @@
  */
 #pragma once
 
+#include "kernels/frame/pack_blend.h"
 #include "kernels/frame/pack_encode.h"
 #include "kernels/frame/pack_light.h"
 #include "kernels/frame/pack_sample.h"
@@ -374,15 +375,6 @@ static inline struct vec3_16 pack_radiance(const struct shade_arguments *a, cons
 	return m->lighting ? v3_add(v3_choose(pack_side(p), v3_same(back), v3_same(front)), sum) : sum;
 }
 
-/* As pixel_nudge. */
-WIDE_VECTORS static inline packf pack_nudge(packf x)
-{
-	const packf codes = clamp01(x) * 255.0f, code = pack_round(codes), rest = codes - code;
-	const packf moved = (code + select((packf)(-0.46f), (packf)(0.46f), rest > 0.0f)) / 255.0f;
-
-	return select(x, moved, fabs(rest) > 0.46f);
-}
-
 /* --- Shading ----------------------------------------------------------------------------------------------------- */
 
 static inline void pack_store_relit(__global struct shaded *out, uint lane, const struct pack_color *color,
@@ -472,7 +464,7 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	}
 	color = pack_finish(t, p, &texturing, &from_vertices, &secondary);
 	for (int i = 0; i < 3; i++)
-		color.c[i] = pack_nudge(color.c[i]);
+		color.c[i] = pixel_nudge(color.c[i]);
 	lights = pack_lights(t, p);
 	direct = stage_is_path(a->transport) ?
 	                 pack_direct_light(a, list, p, lanes, &texturing, &from_vertices, &secondary, &lights) :

@@ -12,21 +12,6 @@
 
 /* --- Numbers ----------------------------------------------------------------------------------------------------- */
 
-/* What rint and floor do; PoCL's own take twenty instructions. From 2^23 on numbers have no fraction. */
-WIDE_VECTORS static inline packf pack_round(packf x)
-{
-	const packf size = fabs(x), rounded = (size + 0x1p23f) - 0x1p23f;
-
-	return select(x, select(rounded, -rounded, x < 0.0f), size < 0x1p23f);
-}
-
-WIDE_VECTORS static inline packf pack_floor(packf x)
-{
-	const packf rounded = pack_round(x);
-
-	return select(rounded, rounded - 1.0f, rounded > x);
-}
-
 /* As texture_int. */
 WIDE_VECTORS static inline packi pack_int(packf x)
 {

@@ -158,7 +158,7 @@ static inline void plain_shade(const struct plain_arguments *a, const struct sha
 	} else {
 		out->gl = pack_finish(t, p, &texturing, &lit, &secondary);
 		for (int i = 0; i < 3; i++)
-			out->gl.c[i] = pack_nudge(out->gl.c[i]);
+			out->gl.c[i] = pixel_nudge(out->gl.c[i]);
 	}
 	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE)
 		out->albedo = pack_albedo(t, &row->list, p, lanes, &texturing, &lit);
@@ -174,7 +174,7 @@ static inline void plain_shade(const struct plain_arguments *a, const struct sha
 		pack_between_relit(s, &row->list, p, lanes & row->dimmed, kept, &lit, &secondary);
 		lit = pack_finish(t, p, &texturing, &lit, &secondary);
 		for (int i = 0; i < 3; i++)
-			out->shadowed.c[i] = select(out->gl.c[i], pack_nudge(lit.c[i]), pack_mask(row->dimmed));
+			out->shadowed.c[i] = select(out->gl.c[i], pixel_nudge(lit.c[i]), pack_mask(row->dimmed));
 	}
 	out->direct = pack_direct(s, &row->list, p, lanes, &texturing, &out->shadowed, lights);
 }

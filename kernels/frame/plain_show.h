@@ -53,7 +53,8 @@ WIDE_VECTORS static inline void clear_row(__global const struct frame_pixel *cle
 WIDE_VECTORS static inline packi shows(const struct plain_arguments *a, __global const struct scene_material *m,
                                        packf depth)
 {
-	return pack_compare(m->depth_func, pack_depth_steps(depth, pixel_depth_bits(a->bits)), (packu)(a->cleared->depth));
+	return pixel_compare(m->depth_func, pixel_depth_steps(depth, pixel_depth_bits(a->bits)),
+	                     (packu)(a->cleared->depth));
 }
 
 /* Colours of lanes that show. */

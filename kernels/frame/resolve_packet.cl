@@ -17,42 +17,27 @@
 /* With the alignment of its elements. */
 typedef float16 loose_floats __attribute__((aligned(4)));
 
-/* As blend_factor. */
-WIDE_VECTORS static inline packu factor_of(__global const struct scene_material *m, uint factor, packu s, packu d)
-{
-	const packu own = pack_code((packf)(vload4(0, m->blend_color), vload4(0, m->blend_color), vload4(0, m->blend_color),
-	                                    vload4(0, m->blend_color)));
-
-	switch (factor) {
-	case GL_ZERO: return 0;
-	case GL_SRC_COLOR: return s;
-	case GL_ONE_MINUS_SRC_COLOR: return 255 - s;
-	case GL_DST_COLOR: return d;
-	case GL_ONE_MINUS_DST_COLOR: return 255 - d;
-	case GL_SRC_ALPHA: return s.s3;
-	case GL_ONE_MINUS_SRC_ALPHA: return 255 - s.s3;
-	case GL_DST_ALPHA: return d.s3;
-	case GL_ONE_MINUS_DST_ALPHA: return 255 - d.s3;
-	case GL_CONSTANT_COLOR: return own.s0123012012012012;
-	case GL_ONE_MINUS_CONSTANT_COLOR: return 255 - own.s0123012012012012;
-	case GL_CONSTANT_ALPHA: return own.s3;
-	case GL_ONE_MINUS_CONSTANT_ALPHA: return 255 - own.s3;
-	case GL_SRC_ALPHA_SATURATE: return select((packu)(min(s.s3, 255 - d.s3)), (packu)(255), LANE_CHANNELS == LANE_ALPHA);
-	default: return 255;
-	}
-}
-
 /* As blend_colors. */
 WIDE_VECTORS static inline packf blend(__global const struct scene_material *m, packf source, packf destination)
 {
-	const packu s = pack_code(source), d = pack_code(destination);
-	packu out = pack_blend_equation(m->blend_equation_rgb, s, factor_of(m, m->blend_src_rgb, s, d), d,
-	                                factor_of(m, m->blend_dst_rgb, s, d));
+	const float4 own = vload4(0, m->blend_color);
+	const packu c = blend_round((packf)(own, own, own, own));
+	struct blend8_16 of;
+	packu out;
 
+	of.s = blend_round(source);
+	of.s_alpha = of.s.s3;
+	of.d = blend_round(destination);
+	of.d_alpha = of.d.s3;
+	of.c = c.s0123012012012012;
+	of.c_alpha = c.s3;
+	of.is_alpha = LANE_CHANNELS == LANE_ALPHA;
+	out = blend_equation(m->blend_equation_rgb, of.s, blend_factor(m->blend_src_rgb, &of), of.d,
+	                     blend_factor(m->blend_dst_rgb, &of));
 	if (m->blend_equation_alpha != m->blend_equation_rgb || m->blend_src_alpha != m->blend_src_rgb ||
 	    m->blend_dst_alpha != m->blend_dst_rgb)
-		out.s3 = pack_blend_equation(m->blend_equation_alpha, s, factor_of(m, m->blend_src_alpha, s, d), d,
-		                             factor_of(m, m->blend_dst_alpha, s, d))
+		out.s3 = blend_equation(m->blend_equation_alpha, of.s, blend_factor(m->blend_src_alpha, &of), of.d,
+		                        blend_factor(m->blend_dst_alpha, &of))
 		                 .s3;
 	return convert_float16(as_int16(out)) / 255.0f;
 }

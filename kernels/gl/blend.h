@@ -8,86 +8,18 @@
 #include "gl_tokens.h"
 #include "kernels/common.h"
 
-/* Red, green, blue, alpha: 0 to 255. */
-struct color8 {
-	uint32_t c[4];
-};
-
-static inline uint32_t blend_round(float x)
-{
-	return (uint32_t)M_RINT(clamp01(x) * 255.0f);
-}
-
-static inline struct color8 blend_load(struct vec4 v)
-{
-	struct color8 out;
-
-	out.c[0] = blend_round(v.x);
-	out.c[1] = blend_round(v.y);
-	out.c[2] = blend_round(v.z);
-	out.c[3] = blend_round(v.w);
-	return out;
-}
-
-/* A product of two numbers that stand for [0,1]; both products of a sum are rounded before they are added. */
-static inline uint32_t blend_multiply(uint32_t a, uint32_t b)
-{
-	uint32_t ab = a * b;
-
-	return (ab + (ab >> 8) + 128u) >> 8;
-}
-
-/* A factor's value for one channel (table 4.2). s, d, c: source, destination, constant colour */
-static inline uint32_t blend_factor(uint32_t factor, int channel, const struct color8 *s, const struct color8 *d,
-                                    const struct color8 *c)
-{
-	switch (factor) {
-	case GL_ZERO: return 0u;
-	case GL_SRC_COLOR: return s->c[channel];
-	case GL_ONE_MINUS_SRC_COLOR: return 255u - s->c[channel];
-	case GL_DST_COLOR: return d->c[channel];
-	case GL_ONE_MINUS_DST_COLOR: return 255u - d->c[channel];
-	case GL_SRC_ALPHA: return s->c[3];
-	case GL_ONE_MINUS_SRC_ALPHA: return 255u - s->c[3];
-	case GL_DST_ALPHA: return d->c[3];
-	case GL_ONE_MINUS_DST_ALPHA: return 255u - d->c[3];
-	case GL_CONSTANT_COLOR: return c->c[channel];
-	case GL_ONE_MINUS_CONSTANT_COLOR: return 255u - c->c[channel];
-	case GL_CONSTANT_ALPHA: return c->c[3];
-	case GL_ONE_MINUS_CONSTANT_ALPHA: return 255u - c->c[3];
-	case GL_SRC_ALPHA_SATURATE:
-		return channel == 3 ? 255u : s->c[3] < 255u - d->c[3] ? s->c[3] : 255u - d->c[3];
-	default: return 255u;
-	}
-}
-
-static inline uint32_t blend_equation(uint32_t equation, uint32_t s, uint32_t fs, uint32_t d, uint32_t fd)
-{
-	uint32_t a = blend_multiply(s, fs), b = blend_multiply(d, fd);
-
-	switch (equation) {
-	case GL_FUNC_SUBTRACT: return a > b ? a - b : 0u;
-	case GL_FUNC_REVERSE_SUBTRACT: return b > a ? b - a : 0u;
-	case GL_MIN: return s < d ? s : d;
-	case GL_MAX: return s > d ? s : d;
-	default: return a + b < 255u ? a + b : 255u;
-	}
-}
+#include "kernels/gl/blend_lanes.h"
 
 /* A source colour over a destination, by a material's factors and equations. */
 static inline struct vec4 blend_colors(GLOBAL const struct scene_material *m, struct vec4 source,
                                        struct vec4 destination)
 {
-	struct color8 s = blend_load(source), d = blend_load(destination), c = blend_load(v4_load(m->blend_color)), out;
+	const uint32_t s_alpha = blend_round(source.w), d_alpha = blend_round(destination.w);
 
-	for (int i = 0; i < 4; i++) {
-		uint32_t equation = i == 3 ? m->blend_equation_alpha : m->blend_equation_rgb;
-		uint32_t fs = blend_factor(i == 3 ? m->blend_src_alpha : m->blend_src_rgb, i, &s, &d, &c);
-		uint32_t fd = blend_factor(i == 3 ? m->blend_dst_alpha : m->blend_dst_rgb, i, &s, &d, &c);
-
-		out.c[i] = blend_equation(equation, s.c[i], fs, d.c[i], fd);
-	}
-	return v4((float)out.c[0] / 255.0f, (float)out.c[1] / 255.0f, (float)out.c[2] / 255.0f, (float)out.c[3] / 255.0f);
+	return v4(blend_channel(m, 0, source.x, s_alpha, destination.x, d_alpha),
+	          blend_channel(m, 1, source.y, s_alpha, destination.y, d_alpha),
+	          blend_channel(m, 2, source.z, s_alpha, destination.z, d_alpha),
+	          blend_channel(m, 3, source.w, s_alpha, destination.w, d_alpha));
 }
 
 /* --- Frame buffers of floats: the same, without rounding --------------------------------------------------------- */

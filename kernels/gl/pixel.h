@@ -11,20 +11,6 @@
 #include "kernels/common.h"
 #include "kernels/gl/blend.h"
 
-static inline int pixel_compare(uint32_t func, uint32_t a, uint32_t b)
-{
-	switch (func) {
-	case GL_NEVER: return 0;
-	case GL_LESS: return a < b;
-	case GL_EQUAL: return a == b;
-	case GL_LEQUAL: return a <= b;
-	case GL_GREATER: return a > b;
-	case GL_NOTEQUAL: return a != b;
-	case GL_GEQUAL: return a >= b;
-	default: return 1;
-	}
-}
-
 /* Numbers that stand in the order of floats. */
 static inline uint32_t pixel_order(float x)
 {
@@ -38,17 +24,7 @@ static inline uint32_t pixel_bits_mask(uint32_t bits)
 	return bits >= 32u ? 0xffffffffu : (1u << bits) - 1u;
 }
 
-/*
- * Depth as a buffer of so many bits holds it, rounded to even as Mesa does. Beyond 24 bits it is the float's own bits;
- * the last one is then always 0, and 1 has all bits set.
- */
-static inline uint32_t pixel_depth_steps(float depth, uint32_t bits)
-{
-	depth = clamp01(depth);
-	if (bits > 24u)
-		return depth < 1.0f ? (uint32_t)(depth * 2147483648.0f) << 1 : 0xffffffffu;
-	return (uint32_t)M_RINT(depth * (float)pixel_bits_mask(bits));
-}
+#include "kernels/gl/pixel_lanes.h"
 
 /* --- Stencil (sec. 4.1.5) ---------------------------------------------------------------------------------------- */
 
@@ -102,17 +78,6 @@ static inline float pixel_logic(uint32_t op, float source, float destination)
 static inline float pixel_stored(float x)
 {
 	return M_RINT(clamp01(x) * 255.0f) / 255.0f;
-}
-
-/*
- * Moves a number off the border between two 8-bit codes, to the side that the frame buffer rounds to, by at most 0.04
- * codes. A picture's half floats and encoding then cannot change its code. 0.3 is 76.5, and 76 for Mesa.
- */
-static inline float pixel_nudge(float x)
-{
-	float codes = clamp01(x) * 255.0f, code = M_RINT(codes), rest = codes - code;
-
-	return M_ABS(rest) > 0.46f ? (code + (rest > 0.0f ? 0.46f : -0.46f)) / 255.0f : x;
 }
 
 /* A number as llvmpipe (22.3.6) stores it in a half: what there is no room for is cut off, not rounded. */
