@@ -10,9 +10,13 @@
 #undef V4
 #undef LANED
 #undef SAME
+#undef SAME3
+#undef SAME4
 #undef IF_ALL
+#undef ANY
 #undef CHOOSE
 #undef CHOOSE3
+#undef CHOOSE4
 #undef MOST
 #undef ROUND
 #undef TO_REAL

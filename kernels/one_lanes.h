@@ -8,8 +8,9 @@
  * VEC3 VEC4      vectors of REALs; V3 and V4 make one
  * LANED(name)    a struct's name, which has a width of its own
  * SAME(x)        a float that all lanes share, where a REAL is needed; others are converted by (WORD)(x) and the like
- * IF_ALL(x)      a MASK of what is true in all lanes or in none
- * CHOOSE(mask, yes, no), CHOOSE3  of REALs and vectors. Sixteen lanes work out both: no branch is spared
+ * SAME3 SAME4    the same of a vector
+ * IF_ALL(x)      a MASK of what is true in all lanes or in none; ANY(mask): whether it is true in any
+ * CHOOSE(mask, yes, no), CHOOSE3, CHOOSE4  of REALs and vectors. Sixteen lanes work out both: no branch is spared
  * MOST(x, y)     the larger one; of a NaN, either
  * ROUND          to the nearest whole number, the even one of two
  * TO_REAL TO_WORD TO_INT  the same value; BITS OF_BITS AS_INT AS_WORD: the same bits
@@ -29,9 +30,13 @@
 #define V4(x, y, z, w) v4(x, y, z, w)
 #define LANED(name) name
 #define SAME(x) (x)
+#define SAME3(v) (v)
+#define SAME4(v) (v)
 #define IF_ALL(x) (x)
+#define ANY(mask) (mask)
 #define CHOOSE(mask, yes, no) ((mask) ? (yes) : (no))
 #define CHOOSE3(mask, yes, no) ((mask) ? (yes) : (no))
+#define CHOOSE4(mask, yes, no) ((mask) ? (yes) : (no))
 #define MOST(x, y) M_MAX(x, y)
 #define ROUND(x) M_RINT(x)
 #define TO_REAL(x) ((float)(x))

@@ -12,9 +12,13 @@
 #define V4(x, y, z, w) v4_16(x, y, z, w)
 #define LANED(name) name##_16
 #define SAME(x) ((packf)(x))
+#define SAME3(v) v3_same(v)
+#define SAME4(v) v4_same(v)
 #define IF_ALL(x) ((x) ? (packi)(-1) : (packi)(0))
+#define ANY(mask) any_pack(mask)
 #define CHOOSE(mask, yes, no) ((mask) ? (yes) : (no))
 #define CHOOSE3(mask, yes, no) v3_choose(mask, yes, no)
+#define CHOOSE4(mask, yes, no) v4_choose(mask, yes, no)
 #define MOST(x, y) pack_max(x, y)
 #define ROUND(x) pack_round(x)
 #define TO_REAL(x) convert_float16(x)

@@ -80,6 +80,12 @@ LANES VEC4 v4_mix(VEC4 a, VEC4 b, REAL t)
 	return v4_add(a, v4_scale(v4_sub(b, a), t));
 }
 
+/* Between three by their weights; equals give themselves. */
+LANES VEC4 v4_between(VEC4 a, VEC4 b, VEC4 c, const REAL *weight)
+{
+	return v4_add(a, v4_add(v4_scale(v4_sub(b, a), weight[1]), v4_scale(v4_sub(c, a), weight[2])));
+}
+
 LANES REAL clamp01(REAL x)
 {
 	return CHOOSE(x > 0.0f, CHOOSE(x < 1.0f, x, SAME(1.0f)), SAME(0.0f)); /* a NaN becomes 0 */

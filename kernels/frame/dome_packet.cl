@@ -169,7 +169,7 @@ static inline uint look_lanes(const struct plain_arguments *a, const struct shad
 	const struct tables *t = &a->tables;
 	__global const struct geometry *g = &t->geometries[row->list.instance[popcount((lanes & -lanes) - 1)]];
 	const struct dome_find_arguments d = looks_of(a);
-	struct pack_lit_here here;
+	struct lit_16 here;
 	struct pack_surface surface;
 	struct looks own;
 	struct pack *p = &kept->last;

@@ -245,7 +245,7 @@ WIDE_VECTORS static inline void test_lanes(const struct plain_arguments *a, stru
 	packi pass = pack_mask(lanes), shows;
 
 	if (m->alpha_test)
-		pass &= pixel_compare(m->alpha_func, blend_round(layer->colors.gl.c[3]),
+		pass &= pixel_compare(m->alpha_func, blend_round(layer->colors.gl.w),
 		                      (packu)(blend_round(m->alpha_ref)));
 	if (m->depth_test && bits) {
 		pass &= pixel_compare(m->depth_func, steps, row->depth);
@@ -281,9 +281,10 @@ WIDE_VECTORS static inline void draw_channel(__global const struct scene_materia
 WIDE_VECTORS static inline int is_same(const struct layer *layer, const struct pack_pixels *p, int i, int is_mirrored,
                                        packi lanes)
 {
-	const packi gl = as_int16(p->gl[i]), own = as_int16(layer->colors.gl.c[i]);
+	const packi gl = as_int16(p->gl[i]), own = as_int16(CHANNEL(layer->colors.gl, i));
 	packi differ = (gl ^ as_int16(p->shadowed[i])) | (gl ^ as_int16(p->direct[i])) |
-	               (own ^ as_int16(layer->colors.shadowed.c[i])) | (own ^ as_int16(layer->colors.direct.c[i]));
+	               (own ^ as_int16(CHANNEL(layer->colors.shadowed, i))) |
+	               (own ^ as_int16(CHANNEL(layer->colors.direct, i)));
 
 	if (is_mirrored)
 		differ |= (gl ^ as_int16(p->mirrored[i])) | (gl ^ as_int16(p->beauty[i])) | (own ^ as_int16(layer->mirrored[i])) |
@@ -297,7 +298,7 @@ WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __gl
                                            struct pack_pixels *p)
 {
 	const struct plain_colors *c = &layer->colors;
-	const packu s_alpha = blend_round(c->gl.c[3]),
+	const packu s_alpha = blend_round(c->gl.w),
 		    d_alpha = pixel_alpha_bits(a->bits) ? blend_round(p->gl[3]) : (packu)(255);
 	const int solid = (m->surface.hidden & SCENE_SOLID) != 0, left_out = (m->surface.hidden & SCENE_LEFT_OUT) != 0;
 	const int special = solid | left_out | (is_mirrored && m->surface.transmit > 0.0f);
@@ -305,7 +306,7 @@ WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __gl
 	for (int i = 0; i < 3; i++) {
 		const int same = !special && is_same(layer, p, i, is_mirrored, lanes);
 
-		draw_channel(m, i, c->gl.c[i], s_alpha, d_alpha, 0, lanes, &p->gl[i]);
+		draw_channel(m, i, CHANNEL(c->gl, i), s_alpha, d_alpha, 0, lanes, &p->gl[i]);
 		if (same) {
 			pack_put(&p->shadowed[i], p->gl[i], lanes);
 			pack_put(&p->direct[i], p->gl[i], lanes);
@@ -313,10 +314,10 @@ WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __gl
 			pack_put(&p->beauty[i], p->gl[i], lanes);
 			continue;
 		}
-		draw_channel(m, i, c->shadowed.c[i], s_alpha, d_alpha, 0, lanes, &p->shadowed[i]);
+		draw_channel(m, i, CHANNEL(c->shadowed, i), s_alpha, d_alpha, 0, lanes, &p->shadowed[i]);
 		if (left_out)
 			continue;
-		draw_channel(m, i, c->direct.c[i], s_alpha, d_alpha, solid, lanes, &p->direct[i]);
+		draw_channel(m, i, CHANNEL(c->direct, i), s_alpha, d_alpha, solid, lanes, &p->direct[i]);
 		if (!is_mirrored)
 			continue;
 		draw_channel(m, i, layer->mirrored[i], s_alpha, d_alpha, solid, lanes, &p->mirrored[i]);
@@ -324,20 +325,20 @@ WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __gl
 	}
 	if (!pixel_alpha_bits(a->bits) && m->blend)
 		pack_put(&p->gl[3], (packf)(1), m->color_mask & 8 ? lanes : (packi)(0));
-	draw_channel(m, 3, c->gl.c[3], s_alpha, d_alpha, 0, lanes, &p->gl[3]);
+	draw_channel(m, 3, c->gl.w, s_alpha, d_alpha, 0, lanes, &p->gl[3]);
 }
 
 /* As pixel_replaces. */
 WIDE_VECTORS static inline packi replaces(__global const struct scene_material *m, const struct plain_colors *c)
 {
-	const packu alpha = blend_round(c->gl.c[3]);
+	const packu alpha = blend_round(c->gl.w);
 	packi same = -1;
 
 	for (int i = 0; i < 3 && m->blend; i++) {
-		const packf over = blend_channel(m, i, c->gl.c[i], alpha, (packf)(0), (packu)(0));
+		const packf over = blend_channel(m, i, CHANNEL(c->gl, i), alpha, (packf)(0), (packu)(0));
 
-		same &= over == blend_channel(m, i, c->gl.c[i], alpha, (packf)(0.5f), (packu)(128)) &
-		        over == blend_channel(m, i, c->gl.c[i], alpha, (packf)(1), (packu)(255));
+		same &= over == blend_channel(m, i, CHANNEL(c->gl, i), alpha, (packf)(0.5f), (packu)(128)) &
+		        over == blend_channel(m, i, CHANNEL(c->gl, i), alpha, (packf)(1), (packu)(255));
 	}
 	return (m->color_mask & 7) == 7 ? same : (packi)(0);
 }

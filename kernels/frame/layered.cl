@@ -26,7 +26,7 @@ static inline void put_layer_surface(const struct plain_arguments *a, struct lay
 
 	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE)
 		for (int c = 0; c < 3; c++)
-			pack_put(&row->pixels.albedo[c], row->layers[i].colors.albedo.c[c], shows);
+			pack_put(&row->pixels.albedo[c], CHANNEL(row->layers[i].colors.albedo, c), shows);
 	if (pack_wants_surface(&a->request))
 		pack_put_surface(&a->tables, &kept->last, s, shows, &row->pixels);
 }
@@ -48,11 +48,11 @@ static inline uint place_lanes(const struct plain_arguments *a, const struct sha
 WIDE_VECTORS static inline void keep_colors(const struct plain_colors *from, packi lanes, struct plain_colors *to)
 {
 	for (int i = 0; i < 4; i++)
-		pack_put(&to->gl.c[i], from->gl.c[i], lanes);
+		pack_put(&CHANNEL(to->gl, i), CHANNEL(from->gl, i), lanes);
 	for (int i = 0; i < 3; i++) {
-		pack_put(&to->shadowed.c[i], from->shadowed.c[i], lanes);
-		pack_put(&to->direct.c[i], from->direct.c[i], lanes);
-		pack_put(&to->albedo.c[i], from->albedo.c[i], lanes);
+		pack_put(&CHANNEL(to->shadowed, i), CHANNEL(from->shadowed, i), lanes);
+		pack_put(&CHANNEL(to->direct, i), CHANNEL(from->direct, i), lanes);
+		pack_put(&CHANNEL(to->albedo, i), CHANNEL(from->albedo, i), lanes);
 	}
 }
 
@@ -95,12 +95,12 @@ static inline void follow_lanes(const struct plain_arguments *a, const struct la
 	const struct pack_list *list = &layer->at.list;
 
 	for (int c = 0; c < 3 && row->is_mirrored; c++) {
-		pack_put(&layer->mirrored[c], layer->colors.direct.c[c], pack_mask(lanes));
-		pack_put(&layer->beauty[c], layer->colors.direct.c[c], pack_mask(lanes));
+		pack_put(&layer->mirrored[c], CHANNEL(layer->colors.direct, c), pack_mask(lanes));
+		pack_put(&layer->beauty[c], CHANNEL(layer->colors.direct, c), pack_mask(lanes));
 	}
 	for (uint left = lanes & layer->leaves; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
-		const struct pack_color *direct = &layer->colors.direct;
+		const struct vec4_16 *direct = &layer->colors.direct;
 		struct fragment f;
 
 		if (row->step == PLAIN_MIRROR) {
@@ -113,8 +113,8 @@ static inline void follow_lanes(const struct plain_arguments *a, const struct la
 		f.b1 = LANE(p->b1, const float, lane);
 		f.b2 = LANE(p->b2, const float, lane);
 		f.depth = LANE(p->depth, const float, lane);
-		list_one(a, layer, lane, f, v3(LANE(direct->c[0], const float, lane), LANE(direct->c[1], const float, lane),
-		                               LANE(direct->c[2], const float, lane)));
+		list_one(a, layer, lane, f, v3(LANE(direct->x, const float, lane), LANE(direct->y, const float, lane),
+		                               LANE(direct->z, const float, lane)));
 	}
 }
 
@@ -200,12 +200,12 @@ static inline void shade_layer_alone(const struct plain_arguments *a, const stru
 	if (!(shaded->flags & SHADED_THERE) || shaded->flags & SHADED_STENCIL)
 		return;
 	for (uint c = 0; c < 3; c++) {
-		LANE(layer->colors.gl.c[c], float, lane) = shaded->gl[c];
-		LANE(layer->colors.shadowed.c[c], float, lane) = shaded->shadowed[c];
-		LANE(layer->colors.direct.c[c], float, lane) = shaded->direct[c];
+		LANE(CHANNEL(layer->colors.gl, c), float, lane) = shaded->gl[c];
+		LANE(CHANNEL(layer->colors.shadowed, c), float, lane) = shaded->shadowed[c];
+		LANE(CHANNEL(layer->colors.direct, c), float, lane) = shaded->direct[c];
 		LANE(layer->mirrored[c], float, lane) = LANE(layer->beauty[c], float, lane) = shaded->direct[c];
 	}
-	LANE(layer->colors.gl.c[3], float, lane) = shaded->gl[3];
+	LANE(layer->colors.gl.w, float, lane) = shaded->gl[3];
 	LANE(layer->depth, float, lane) = shaded->depth;
 	layer->shaded |= 1u << lane;
 	f = a->fragments[item];
@@ -276,7 +276,7 @@ static inline uint shade_layer(const struct plain_arguments *a, const struct sha
 			shade_layer_lanes(a, s, row, i, same & ~layer->shaded, 0, &kept->pack);
 		switch (pack_covers(m)) {
 		case 1: covers |= same; break;
-		case 2: covers |= same & pack_bits(blend_round(layer->colors.gl.c[3]) == 255); break;
+		case 2: covers |= same & pack_bits(blend_round(layer->colors.gl.w) == 255); break;
 		default: break;
 		}
 	}

@@ -73,8 +73,6 @@ static inline void pack_keep_nothing(struct pack_kept *kept)
 typedef float16 pack_loose_floats __attribute__((aligned(4)));
 typedef uint16 pack_loose_uints __attribute__((aligned(4)));
 
-#define LANE(vector, type, lane) (((type *)&(vector))[lane])
-
 /* A fragment of the list, to a lane. */
 static inline void pack_take(__global const struct fragment *fragments, __global const uint *pixels, uint item,
                              uint lane, struct pack_list *list)
@@ -241,6 +239,14 @@ WIDE_VECTORS static inline void pack_row(__global const float *table, const stru
 WIDE_VECTORS static inline void pack_vertex(const struct tables *t, const struct pack *p, int k, packu four, packf *row)
 {
 	pack_row((__global const float *)t->vertices, p, p->vertex[k] * 8 + four, row);
+}
+
+WIDE_VECTORS static inline struct vec4_16 pack_vertex4(const struct tables *t, const struct pack *p, int k, packu four)
+{
+	packf row[4];
+
+	pack_vertex(t, p, k, four, row);
+	return v4_16(row[0], row[1], row[2], row[3]);
 }
 
 /* Triangles that run clockwise, from clip space. */
@@ -451,12 +457,6 @@ WIDE_VECTORS static inline void pack_weigh(struct pack *p)
 	p->weight[0] = c0 / sum;
 	p->weight[1] = c1 / sum;
 	p->weight[2] = c2 / sum;
-}
-
-/* A number of each vertex where the fragments are; equals give themselves. */
-WIDE_VECTORS static inline packf pack_mix(const struct pack *p, packf a, packf b, packf c)
-{
-	return a + ((b - a) * p->weight[1] + (c - a) * p->weight[2]);
 }
 
 /* All ones where the back's colours count. */

@@ -125,7 +125,8 @@ WIDE_VECTORS static inline void pack_texture_hits(const struct tables *t, const 
 			texel = pack_level_8(t, unit, &l, c);
 		}
 		for (int j = 0; j < 4; j++)
-			out->sample[i][j] = convert_float16(texel >> (packu)(8 * j) & 255) * (1.0f / 255.0f);
+			c[j] = convert_float16(texel >> (packu)(8 * j) & 255) * (1.0f / 255.0f);
+		out->sample[unit->unit] = v4_16(c[0], c[1], c[2], c[3]);
 	}
 	out->fog = pack_fog(t, p);
 }
@@ -286,11 +287,11 @@ WIDE_VECTORS static inline void pack_branch_through(const struct tables *t, cons
 
 /* As glass_tint. from_vertices: as they are lit */
 static inline struct vec3_16 pack_tint(const struct tables *t, const struct pack_points *q,
-                                       const struct pack_texturing *texturing, const struct pack_color *from_vertices)
+                                       const struct pack_texturing *texturing, const struct vec4_16 *from_vertices)
 {
-	const struct pack_color c = pack_albedo(t, &q->list, &q->p, q->lanes, texturing, from_vertices);
+	const struct vec4_16 c = pack_albedo(t, &q->list, &q->p, q->lanes, texturing, from_vertices);
 
-	return v3_16(sqrt(clamp01(c.c[0])), sqrt(clamp01(c.c[1])), sqrt(clamp01(c.c[2])));
+	return v3_16(sqrt(clamp01(c.x)), sqrt(clamp01(c.y)), sqrt(clamp01(c.z)));
 }
 
 /* --- Ways that chance chooses ------------------------------------------------------------------------------------ */

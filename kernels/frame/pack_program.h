@@ -238,12 +238,11 @@ static inline void pack_execute(const struct tables *t, const struct pack *p, co
 /* As program_light_corners and point_lit_between, lane by lane. */
 static inline void pack_lit_by_program(const struct shade_arguments *a, const struct pack_list *list,
                                        const struct pack *p, uint lanes, struct pack_kept *kept,
-                                       struct program_run *run, struct pack_color *color, struct pack_color *secondary)
+                                       struct program_run *run, struct vec4_16 *color, struct vec4_16 *secondary)
 {
-	struct pack_corners_lit lit;
+	const struct vec4_16 none = v4_16(0, 0, 0, 0);
+	struct pack_corners_lit lit = { { none, none, none }, { none, none, none } };
 
-	for (uint i = 0; i < 24; i++)
-		lit.v[i / 8][i % 8] = 0.0f;
 	for (; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 		struct vec3 seen[SCENE_MAX_LIGHTS];
@@ -261,8 +260,8 @@ static inline void pack_lit_by_program(const struct shade_arguments *a, const st
 
 /* Colours of fragments as their vertices are lit, with the lights' visibility where lights have been asked. */
 static inline void pack_lit(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p,
-                            uint lanes, struct pack_kept *kept, struct program_run *run, struct pack_color *color,
-                            struct pack_color *secondary)
+                            uint lanes, struct pack_kept *kept, struct program_run *run, struct vec4_16 *color,
+                            struct vec4_16 *secondary)
 {
 	if (stage_is_lit_by_program(a, p->material, 0)) {
 		pack_lit_by_program(a, list, p, lanes, kept, run, color, secondary);
@@ -368,18 +367,24 @@ WIDE_VECTORS static inline void pack_input_position(const struct tables *t, cons
 	to[3] = 1.0f / pack_weighted(t, p, PACK_CLIP, 3);
 }
 
+static inline void pack_set_input(struct pack_run *run, uint input, struct vec4_16 v)
+{
+	run->registers[4 * input] = v.x;
+	run->registers[4 * input + 1] = v.y;
+	run->registers[4 * input + 2] = v.z;
+	run->registers[4 * input + 3] = v.w;
+}
+
 /* As program_colors_by_weights. own_color, own_secondary: of the lanes that are fragments */
 WIDE_VECTORS static inline void pack_colors_by_weights(const struct tables *t, const struct pack *p, packi is_own,
-                                                       const struct pack_color *own_color,
-                                                       const struct pack_color *own_secondary, struct pack_run *run)
+                                                       const struct vec4_16 *own_color,
+                                                       const struct vec4_16 *own_secondary, struct pack_run *run)
 {
-	const struct pack_color color = pack_between(t, p, PACK_COLOR), secondary = pack_between(t, p, PACK_SECONDARY);
+	const struct vec4_16 color = pack_between(t, p, PACK_COLOR), secondary = pack_between(t, p, PACK_SECONDARY);
 
-	for (int i = 0; i < 4; i++) {
-		run->registers[4 * SCENE_INPUT_COLOR + i] = select(color.c[i], own_color->c[i], is_own);
-		run->registers[4 * SCENE_INPUT_SECONDARY + i] = select(secondary.c[i], own_secondary->c[i], is_own);
-		run->registers[4 * SCENE_INPUT_FOG + i] = i == 3 ? 1.0f : 0.0f;
-	}
+	pack_set_input(run, SCENE_INPUT_COLOR, v4_choose(is_own, *own_color, color));
+	pack_set_input(run, SCENE_INPUT_SECONDARY, v4_choose(is_own, *own_secondary, secondary));
+	pack_set_input(run, SCENE_INPUT_FOG, v4_16(0, 0, 0, 1));
 	run->registers[4 * SCENE_INPUT_FOG] = pack_weighted(t, p, PACK_NORMAL, 3);
 }
 
@@ -440,12 +445,14 @@ static inline void pack_begin(const struct shade_arguments *a, const struct pack
 	for (uint i = 0; i < program->head->n_lights; i++) {
 		__global const struct scene_program_light *light = &program->lights[i];
 		__global const float *sent = program->constants + light->from;
-		packf share[3] = { 1.0f, 1.0f, 1.0f };
+		struct vec3_16 share = v3_16(1, 1, 1);
 
 		if (p->material->vertex_program)
-			pack_seen(a, list, run->lanes, light->slot, share);
-		for (uint k = 0; k < 4; k++)
-			run->registers[light->to + k] = k < 3 ? sent[k] * share[k] : (packf)(sent[3]);
+			share = pack_seen(a, list, run->lanes, light->slot);
+		run->registers[light->to] = sent[0] * share.x;
+		run->registers[light->to + 1] = sent[1] * share.y;
+		run->registers[light->to + 2] = sent[2] * share.z;
+		run->registers[light->to + 3] = sent[3];
 	}
 }
 
@@ -453,24 +460,23 @@ static inline void pack_begin(const struct shade_arguments *a, const struct pack
 
 /* Colours of some lanes, as struct shaded takes them. */
 static inline void pack_store_program(const struct shade_arguments *a, const struct pack_list *list,
-                                      const struct pack *p, uint lanes, const struct pack_color *color)
+                                      const struct pack *p, uint lanes, const struct vec4_16 *color)
 {
 	const int is_direct = !stage_is_path(a->transport) && !p->material->surface.relit;
-	struct pack_color nudged = *color;
+	const struct vec4_16 nudged = v4_16(pixel_nudge(color->x), pixel_nudge(color->y), pixel_nudge(color->z),
+	                                    color->w);
 
-	for (int i = 0; i < 3; i++)
-		nudged.c[i] = pixel_nudge(color->c[i]);
 	for (; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 		__global struct shaded *out = &a->shaded[list->item[lane]];
-		const struct vec3 c = v3(LANE(nudged.c[0], float, lane), LANE(nudged.c[1], float, lane),
-		                         LANE(nudged.c[2], float, lane));
+		const struct vec4 gl = v4_lane(&nudged, lane);
+		const struct vec3 c = v3(gl.x, gl.y, gl.z);
 
 		v3_store(out->shadowed, c);
 		if (is_direct)
 			stage_store_direct(out, v3_add(c, v3_load(p->material->surface.emission)));
 		if (!a->n_slots)
-			v4_store(out->gl, v4(c.x, c.y, c.z, LANE(nudged.c[3], float, lane)));
+			v4_store(out->gl, gl);
 	}
 }
 
@@ -478,7 +484,7 @@ static inline void pack_store_program(const struct shade_arguments *a, const str
 static inline void pack_fixed(const struct shade_arguments *a, const struct pack_list *list, struct pack *p, uint lanes,
                               struct pack_kept *kept, struct pack_runs *runs)
 {
-	struct pack_color lit, secondary, color;
+	struct vec4_16 lit, secondary, color;
 	struct pack_texturing texturing;
 
 	pack_texture(a, list, p, lanes, kept, &texturing);
@@ -499,8 +505,9 @@ static inline void pack_run_program(const struct shade_arguments *a, const struc
 		   colors = inputs & (1 << SCENE_INPUT_COLOR | 1 << SCENE_INPUT_SECONDARY | 1 << SCENE_INPUT_FOG);
 	const packi is_own = pack_mask(own);
 	struct pack_run *run = &runs->fragments;
-	struct pack_color color, secondary;
+	struct vec4_16 color, secondary;
 	struct pack_places at;
+	const packf *ends;
 
 	pack_begin(a, list, p, program, own, run);
 	if (colors && a->n_slots)
@@ -520,11 +527,9 @@ static inline void pack_run_program(const struct shade_arguments *a, const struc
 	pack_input_texcoords(a, list, p, run->lanes, kept, inputs, &at, run);
 	pack_execute(&a->tables, p, program, run);
 	program_note_ended(a->programs + (p->material->fragment_program - 1), run->ended);
-	for (int i = 0; i < 4; i++) {
-		const packf c = run->registers[program_color(program, a->output) + i];
-
-		color.c[i] = p->material->unclamped & 1 ? c : clamp01(c);
-	}
+	ends = &run->registers[program_color(program, a->output)];
+	color = v4_16(ends[0], ends[1], ends[2], ends[3]);
+	color = p->material->unclamped & 1 ? color : v4_clamp01(color);
 	for (uint left = program->head->sets_depth && !a->n_slots ? own : 0; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 

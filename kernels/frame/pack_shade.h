@@ -9,6 +9,10 @@
 #include "kernels/frame/pack_light.h"
 #include "kernels/frame/pack_sample.h"
 
+#include "kernels/sixteen_lanes.h"
+#include "kernels/gl/finish_lanes.h"
+#include "kernels/one_lanes.h"
+
 /* Whether pack_shade knows all that a material asks for. */
 static inline int pack_is_plain(const struct shade_arguments *a, __global const struct scene_material *m)
 {
@@ -26,27 +30,22 @@ static inline int pack_is_plain(const struct shade_arguments *a, __global const 
 
 /* Between the vertices' colours or secondary ones; under flat shading the last one's. four: PACK_COLOR or
  * PACK_SECONDARY */
-WIDE_VECTORS static inline struct pack_color pack_between(const struct tables *t, const struct pack *p, uint four)
+WIDE_VECTORS static inline struct vec4_16 pack_between(const struct tables *t, const struct pack *p, uint four)
 {
 	const packu row = four + as_uint16(pack_side(p) & 1);
-	packf v[3][4];
-	struct pack_color out;
+	struct vec4_16 v[3];
 
-	pack_vertex(t, p, 2, row, v[2]);
-	for (int i = 0; i < 4; i++)
-		out.c[i] = v[2][i];
+	v[2] = pack_vertex4(t, p, 2, row);
 	if (p->material->shade_model == GL_FLAT)
-		return out;
-	pack_vertex(t, p, 0, row, v[0]);
-	pack_vertex(t, p, 1, row, v[1]);
-	for (int i = 0; i < 4; i++)
-		out.c[i] = pack_mix(p, v[0][i], v[1][i], v[2][i]);
-	return out;
+		return v[2];
+	v[0] = pack_vertex4(t, p, 0, row);
+	v[1] = pack_vertex4(t, p, 1, row);
+	return v4_between(v[0], v[1], v[2], p->weight);
 }
 
 /* As point_lit_from_vertices; secondary colours only where they are looked at. */
 WIDE_VECTORS static inline void pack_lit_from_vertices(const struct tables *t, const struct pack *p,
-                                                       struct pack_color *color, struct pack_color *secondary)
+                                                       struct vec4_16 *color, struct vec4_16 *secondary)
 {
 	*color = *secondary = pack_between(t, p, PACK_COLOR);
 	if (p->material->color_sum || (p->material->lighting && p->material->separate_specular))
@@ -91,45 +90,38 @@ static inline struct pack_lit *pack_keep_lit(const struct tables *t, const struc
 	return l;
 }
 
-/* The lanes' vertices, lit one by one: colour, secondary colour. */
+/* The lanes' vertices, lit one by one. */
 struct pack_corners_lit {
-	packf v[3][8];
+	struct vec4_16 color[3], secondary[3];
 };
 
 static inline void pack_take_lit(const struct lit *lit, int flat, uint lane, struct pack_corners_lit *to)
 {
 	for (uint k = flat ? 2 : 0; k < 3; k++) {
-		LANE(to->v[k][0], float, lane) = lit[k].color.x;
-		LANE(to->v[k][1], float, lane) = lit[k].color.y;
-		LANE(to->v[k][2], float, lane) = lit[k].color.z;
-		LANE(to->v[k][3], float, lane) = lit[k].color.w;
-		LANE(to->v[k][4], float, lane) = lit[k].secondary.x;
-		LANE(to->v[k][5], float, lane) = lit[k].secondary.y;
-		LANE(to->v[k][6], float, lane) = lit[k].secondary.z;
+		v4_put_lane(lit[k].color, lane, &to->color[k]);
+		v4_put_lane(lit[k].secondary, lane, &to->secondary[k]);
 	}
 }
 
 /* As point_lit_between. */
-static inline void pack_lit_between(const struct pack *p, const struct pack_corners_lit *lit, struct pack_color *color,
-                                    struct pack_color *secondary)
+static inline void pack_lit_between(const struct pack *p, const struct pack_corners_lit *lit, struct vec4_16 *color,
+                                    struct vec4_16 *secondary)
 {
 	const int flat = p->material->shade_model == GL_FLAT;
 
-	for (uint i = 0; i < 4; i++) {
-		color->c[i] = flat ? lit->v[2][i] : pack_mix(p, lit->v[0][i], lit->v[1][i], lit->v[2][i]);
-		secondary->c[i] = flat ? lit->v[2][4 + i] : pack_mix(p, lit->v[0][4 + i], lit->v[1][4 + i], lit->v[2][4 + i]);
-	}
+	*color = flat ? lit->color[2] : v4_between(lit->color[0], lit->color[1], lit->color[2], p->weight);
+	*secondary = flat ? lit->secondary[2] :
+	                    v4_between(lit->secondary[0], lit->secondary[1], lit->secondary[2], p->weight);
 }
 
 /* Colours by the lights' visibility: each lane's triangle lit again, as setup_keep_lit does it. */
 static inline void pack_between_relit(const struct shade_arguments *a, const struct pack_list *list,
-                                      const struct pack *p, uint lanes, struct pack_kept *kept,
-                                      struct pack_color *color, struct pack_color *secondary)
+                                      const struct pack *p, uint lanes, struct pack_kept *kept, struct vec4_16 *color,
+                                      struct vec4_16 *secondary)
 {
-	struct pack_corners_lit lit;
+	const struct vec4_16 none = v4_16(0, 0, 0, 0);
+	struct pack_corners_lit lit = { { none, none, none }, { none, none, none } };
 
-	for (uint i = 0; i < 24; i++)
-		lit.v[i / 8][i % 8] = 0.0f;
 	for (; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 		struct vec3 seen[SCENE_MAX_LIGHTS];
@@ -147,7 +139,7 @@ static inline void pack_between_relit(const struct shade_arguments *a, const str
 
 /* Textures at the fragments, and fog. */
 struct pack_texturing {
-	packf sample[SCENE_MAX_UNITS][4]; /* in the order of the material's units */
+	struct vec4_16 sample[SCENE_MAX_UNITS]; /* by GL's unit number */
 	packf fog;
 };
 
@@ -178,7 +170,7 @@ WIDE_VECTORS static inline packf pack_fog(const struct tables *t, const struct p
 	for (int k = 0; k < 3; k++)
 		pack_vertex(t, p, k, (packu)(PACK_NORMAL), v[k]);
 	c = v[0][3] * p->weight[0] + v[1][3] * p->weight[1] + v[2][3] * p->weight[2];
-	return clamp01(m->fog_end == m->fog_start ? c - m->fog_end : (m->fog_end - c) / (m->fog_end - m->fog_start));
+	return fog_linear(m, c);
 }
 
 /* The lanes' vertices' numbers become those of their parts' corners. row: [3][4] */
@@ -213,92 +205,67 @@ WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, co
 	const packu first = pack_texcoord_first(t, list, m, lanes, p->uniform);
 
 	for (uint i = 0; i < m->unit_count; i++) {
-		packf texcoord[3][4];
+		__global const struct scene_unit *unit = &t->units[m->unit_first + i];
+		packf texcoord[3][4], c[4];
 
 		pack_texcoords(a, list, p, lanes, first, i, kept, texcoord);
-		pack_sample(t, &t->units[m->unit_first + i], &p->edges, p->w_inv, texcoord, p->x, p->row, middle, pack_mask(lanes),
-		            out->sample[i]);
+		pack_sample(t, unit, &p->edges, p->w_inv, texcoord, p->x, p->row, middle, pack_mask(lanes), c);
+		out->sample[unit->unit] = v4_16(c[0], c[1], c[2], c[3]);
 	}
 	out->fog = pack_fog(t, p);
 }
 
-/* As point_finish_in_fog. */
-WIDE_VECTORS static inline struct pack_color
-pack_finish_without(const struct tables *t, const struct pack *p, const struct pack_texturing *texturing,
-                    const struct pack_color *lit, const struct pack_color *secondary, packf fog, uint without)
+WIDE_VECTORS static inline struct vec4_16 pack_finish_without(const struct tables *t, const struct pack *p,
+                                                              const struct pack_texturing *texturing,
+                                                              const struct vec4_16 *lit,
+                                                              const struct vec4_16 *secondary, packf fog, uint without)
 {
-	__global const struct scene_material *m = p->material;
-	struct pack_color color = *lit;
+	const struct lit_16 both = { .color = *lit, .secondary = *secondary };
 
-	for (uint i = 0; i < m->unit_count; i++) {
-		__global const struct scene_unit *unit = &t->units[m->unit_first + i];
-
-		if (unit->unit + 1 == without)
-			continue;
-		color = unit->env_mode == GL_COMBINE ?
-		                pack_combine_full(m, t->units + m->unit_first, i, &color, lit, texturing->sample) :
-		                pack_combine(unit->env_mode, point_unit_format(t, unit), &color, texturing->sample[i],
-		                             unit->env_color);
-	}
-	for (int i = 0; i < 3 && (m->color_sum || (m->lighting && m->separate_specular)); i++)
-		color.c[i] += secondary->c[i];
-	for (int i = 0; i < 3 && m->fog; i++)
-		color.c[i] = color.c[i] * fog + m->fog_color[i] * (1.0f - fog);
-	for (int i = 0; i < 4; i++)
-		color.c[i] = clamp01(color.c[i]);
-	return color;
+	return finish_in_fog(t, p->material, texturing->sample, &both, fog, without);
 }
 
 /* As point_finish. */
-WIDE_VECTORS static inline struct pack_color pack_finish(const struct tables *t, const struct pack *p,
-                                                         const struct pack_texturing *texturing,
-                                                         const struct pack_color *lit,
-                                                         const struct pack_color *secondary)
+WIDE_VECTORS static inline struct vec4_16 pack_finish(const struct tables *t, const struct pack *p,
+                                                      const struct pack_texturing *texturing, const struct vec4_16 *lit,
+                                                      const struct vec4_16 *secondary)
 {
 	return pack_finish_without(t, p, texturing, lit, secondary, texturing->fog, 0);
 }
 
 /* As point_finish_relit. */
-WIDE_VECTORS static inline struct pack_color pack_finish_relit(const struct tables *t, const struct pack *p,
-                                                               const struct pack_texturing *texturing,
-                                                               const struct pack_color *lit,
-                                                               const struct pack_color *secondary)
+WIDE_VECTORS static inline struct vec4_16 pack_finish_relit(const struct tables *t, const struct pack *p,
+                                                            const struct pack_texturing *texturing,
+                                                            const struct vec4_16 *lit, const struct vec4_16 *secondary)
 {
 	return pack_finish_without(t, p, texturing, lit, secondary, texturing->fog, p->material->surface.light_unit);
 }
 
 /* The colour that point_albedo_of starts from. from_vertices: as they are lit */
-static inline struct pack_color pack_matte(const struct tables *t, const struct pack_list *list, const struct pack *p,
-                                           uint lanes, const struct pack_color *from_vertices)
+static inline struct vec4_16 pack_matte(const struct tables *t, const struct pack_list *list, const struct pack *p,
+                                        uint lanes, const struct vec4_16 *from_vertices)
 {
 	__global const struct scene_material *m = p->material;
 	const uint mode = m->color_material_mode;
-	const packi back = pack_side(p);
-	struct pack_color out = *from_vertices;
-	packf v[3][4];
+	struct vec4_16 v[3];
 
 	if (!m->lighting)
-		return m->surface.light_unit == SCENE_LIGHT_IN_COLORS ? pack_matte_color(t, list, p, lanes) : out;
-	for (uint i = 0; i < 4 && !(m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE)); i++)
-		out.c[i] = clamp01(select((packf)(m->front.diffuse[i]), (packf)(m->back.diffuse[i]), back));
+		return m->surface.light_unit == SCENE_LIGHT_IN_COLORS ? pack_matte_color(t, list, p, lanes) :
+		                                                        *from_vertices;
 	if (!(m->color_material && (mode == GL_DIFFUSE || mode == GL_AMBIENT_AND_DIFFUSE)))
-		return out;
+		return v4_clamp01(
+			v4_choose(pack_side(p), v4_same(v4_load(m->back.diffuse)), v4_same(v4_load(m->front.diffuse))));
 	pack_vertex_colors(t, list, p, lanes, v);
-	for (int i = 0; i < 4; i++)
-		out.c[i] = clamp01(pack_mix(p, v[0][i], v[1][i], v[2][i]));
-	return out;
+	return v4_clamp01(v4_between(v[0], v[1], v[2], p->weight));
 }
 
 /* As point_albedo_of. */
-static inline struct pack_color pack_albedo(const struct tables *t, const struct pack_list *list, const struct pack *p,
-                                            uint lanes, const struct pack_texturing *texturing,
-                                            const struct pack_color *from_vertices)
+static inline struct vec4_16 pack_albedo(const struct tables *t, const struct pack_list *list, const struct pack *p,
+                                         uint lanes, const struct pack_texturing *texturing,
+                                         const struct vec4_16 *from_vertices)
 {
-	const struct pack_color matte = pack_matte(t, list, p, lanes, from_vertices);
-	struct pack_color none;
+	const struct vec4_16 matte = pack_matte(t, list, p, lanes, from_vertices), none = v4_16(0, 0, 0, 0);
 
-	for (int i = 0; i < 4; i++)
-		none.c[i] = 0.0f;
 	return pack_finish_without(t, p, texturing, &matte, &none, (packf)(1), p->material->surface.light_unit);
 }
 
@@ -325,7 +292,7 @@ static inline packu pack_radiant_lights(const struct tables *t, const struct pac
 
 		if (!(light[i].radius >= 0.0f))
 			continue;
-		strength = pack_strength(&light[i], at, &to_light);
+		strength = light_strength(&light[i], at, &to_light);
 		lights |= select((packu)(0), (packu)(1u << i), (strength > 0.0f) & (v3_dot(n, to_light) > 0.0f));
 	}
 	return lights;
@@ -338,9 +305,8 @@ static inline packu pack_radiant_lights(const struct tables *t, const struct pac
  */
 static inline struct vec3_16 pack_radiance(const struct shade_arguments *a, const struct pack_list *list,
                                            const struct pack *p, const struct pack_surface *s, uint lanes,
-                                           const struct pack_texturing *texturing,
-                                           const struct pack_color *from_vertices, const struct pack_color *secondary,
-                                           struct vec3_16 *albedo)
+                                           const struct pack_texturing *texturing, const struct vec4_16 *from_vertices,
+                                           const struct vec4_16 *secondary, struct vec3_16 *albedo)
 {
 	const struct tables *t = &a->tables;
 	__global const struct scene_material *m = p->material;
@@ -350,53 +316,46 @@ static inline struct vec3_16 pack_radiance(const struct shade_arguments *a, cons
 	const struct vec3 front = stage_light(a->transport, v3_load(m->front.emission)),
 			  back = stage_light(a->transport, v3_load(m->back.emission));
 	struct vec3_16 sum = v3_16(0, 0, 0), n, at;
-	struct pack_color c;
+	struct vec4_16 c;
 
 	if (!pack_takes_light(m)) {
 		c = pack_finish(t, p, texturing, from_vertices, secondary);
-		return stage_light(a->transport,
-		                   v3_add(v3_16(c.c[0], c.c[1], c.c[2]), v3_same(v3_load(m->surface.emission))));
+		return stage_light(a->transport, v3_add(v3_16(c.x, c.y, c.z), v3_same(v3_load(m->surface.emission))));
 	}
 	n = pack_normal(t, p, s);
 	at = pack_place_at(s, p->weight);
 	for (uint i = 0; i < count; i++) {
 		struct vec3_16 to_light, sent;
-		const packf strength = pack_strength(&light[i], at, &to_light), cosine = v3_dot(n, to_light);
-		packf share[3];
+		const packf strength = light_strength(&light[i], at, &to_light), cosine = v3_dot(n, to_light);
 
-		pack_seen(a, list, lanes, i, share);
 		sent = v3_scale(stage_light(a->transport, v3_scale(v3_same(v3_load(light[i].diffuse)), strength)),
 		                cosine);
-		sum = v3_choose(cosine > 0.0f, v3_add(sum, v3_mul(sent, v3_16(share[0], share[1], share[2]))), sum);
+		sum = v3_choose(cosine > 0.0f, v3_add(sum, v3_mul(sent, pack_seen(a, list, lanes, i))), sum);
 	}
 	c = pack_albedo(t, list, p, lanes, texturing, from_vertices);
-	*albedo = stage_light(a->transport, v3_16(c.c[0], c.c[1], c.c[2]));
+	*albedo = stage_light(a->transport, v3_16(c.x, c.y, c.z));
 	sum = v3_add(v3_mul(sum, *albedo), v3_same(by_rule));
 	return m->lighting ? v3_add(v3_choose(pack_side(p), v3_same(back), v3_same(front)), sum) : sum;
 }
 
 /* --- Shading ----------------------------------------------------------------------------------------------------- */
 
-static inline void pack_store_relit(__global struct shaded *out, uint lane, const struct pack_color *color,
-                                    const struct pack_color *direct)
+static inline void pack_store_relit(__global struct shaded *out, uint lane, const struct vec4_16 *color,
+                                    const struct vec4_16 *direct)
 {
-	for (uint i = 0; i < 3; i++) {
-		const float c = LANE(direct->c[i], const float, lane);
+	const struct vec4 c = v4_lane(color, lane), d = v4_lane(direct, lane);
 
-		out->shadowed[i] = LANE(color->c[i], const float, lane);
-		out->direct[i] = out->mirrored[i] = out->beauty[i] = c;
-	}
+	v3_store(out->shadowed, v3(c.x, c.y, c.z));
+	stage_store_direct(out, v3(d.x, d.y, d.z));
 }
 
 /* pack_direct where light is followed. from_vertices, secondary: as they are lit */
-static inline struct pack_color pack_direct_light(const struct shade_arguments *a, const struct pack_list *list,
-                                                  const struct pack *p, uint lanes,
-                                                  const struct pack_texturing *texturing,
-                                                  const struct pack_color *from_vertices,
-                                                  const struct pack_color *secondary, packu *lights)
+static inline struct vec4_16 pack_direct_light(const struct shade_arguments *a, const struct pack_list *list,
+                                               const struct pack *p, uint lanes, const struct pack_texturing *texturing,
+                                               const struct vec4_16 *from_vertices, const struct vec4_16 *secondary,
+                                               packu *lights)
 {
 	struct pack_surface s;
-	struct pack_color out;
 	struct vec3_16 sum;
 	struct vec3_16 albedo;
 
@@ -404,11 +363,7 @@ static inline struct pack_color pack_direct_light(const struct shade_arguments *
 	*lights = pack_radiant_lights(&a->tables, p, &s);
 	sum = stage_number(a->transport,
 	                   pack_radiance(a, list, p, &s, lanes, texturing, from_vertices, secondary, &albedo));
-	out.c[0] = sum.x;
-	out.c[1] = sum.y;
-	out.c[2] = sum.z;
-	out.c[3] = 0.0f;
-	return out;
+	return v4_16(sum.x, sum.y, sum.z, 0);
 }
 
 /*
@@ -416,13 +371,13 @@ static inline struct pack_color pack_direct_light(const struct shade_arguments *
  * color: by GL's own lighting
  * lights: of vertices; receives those that light the points where rules light them anew
  */
-static inline struct pack_color pack_direct(const struct shade_arguments *a, const struct pack_list *list,
-                                            const struct pack *p, uint lanes, const struct pack_texturing *texturing,
-                                            const struct pack_color *color, packu *lights)
+static inline struct vec4_16 pack_direct(const struct shade_arguments *a, const struct pack_list *list,
+                                         const struct pack *p, uint lanes, const struct pack_texturing *texturing,
+                                         const struct vec4_16 *color, packu *lights)
 {
 	__global const struct scene_material *m = p->material;
-	struct pack_color out = *color;
-	struct pack_lit_here here;
+	struct vec4_16 out = *color;
+	struct lit_16 here;
 	struct pack_surface s;
 
 	if (m->surface.relit) {
@@ -431,9 +386,8 @@ static inline struct pack_color pack_direct(const struct shade_arguments *a, con
 		out = pack_finish_relit(&a->tables, p, texturing, &here.color, &here.secondary);
 		*lights = here.lights;
 	}
-	for (int i = 0; i < 3; i++)
-		out.c[i] += m->surface.emission[i];
-	return out;
+	return v4_16(out.x + m->surface.emission[0], out.y + m->surface.emission[1], out.z + m->surface.emission[2],
+	             out.w);
 }
 
 /*
@@ -446,7 +400,7 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	const struct tables *t = &a->tables;
 	__global const struct geometry *g = &t->geometries[list->instance[popcount((lanes & -lanes) - 1)]];
 	__global const struct scene_material *m = &t->materials[g->material];
-	struct pack_color from_vertices, secondary, color, direct, albedo;
+	struct vec4_16 from_vertices, secondary, color, direct, albedo;
 	struct pack_texturing texturing;
 	struct pack *p = &kept->last;
 	packu lights;
@@ -463,8 +417,7 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 		pack_lit_from_vertices(t, p, &from_vertices, &secondary);
 	}
 	color = pack_finish(t, p, &texturing, &from_vertices, &secondary);
-	for (int i = 0; i < 3; i++)
-		color.c[i] = pixel_nudge(color.c[i]);
+	color = v4_16(pixel_nudge(color.x), pixel_nudge(color.y), pixel_nudge(color.z), color.w);
 	lights = pack_lights(t, p);
 	direct = stage_is_path(a->transport) ?
 	                 pack_direct_light(a, list, p, lanes, &texturing, &from_vertices, &secondary, &lights) :
@@ -476,8 +429,7 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	}
 	if (a->n_slots)
 		return lanes;
-	for (int i = 0; i < 3; i++)
-		albedo.c[i] = 0.0f;
+	albedo = v4_16(0, 0, 0, 0);
 	if (a->albedo)
 		albedo = pack_albedo(t, list, p, lanes, &texturing, &from_vertices);
 	lights = (lights & 255) * SHADED_WANTS(0) | SHADED_THERE | (as_uint16(p->front) & SHADED_FRONT);
@@ -485,15 +437,15 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 		const uint lane = popcount((left & -left) - 1);
 		__global struct shaded *out = &a->shaded[list->item[lane]];
 		__global struct fragment *f = &a->fragments[list->item[lane]];
+		struct vec4 of;
 
 		f->b1 = LANE(p->b1, float, lane);
 		f->b2 = LANE(p->b2, float, lane);
 		f->depth = out->depth = LANE(p->depth, float, lane);
 		pack_store_relit(out, lane, &color, &direct);
-		for (int i = 0; i < 4; i++)
-			out->gl[i] = LANE(color.c[i], float, lane);
-		for (int i = 0; i < 3; i++)
-			out->albedo[i] = LANE(albedo.c[i], float, lane);
+		v4_store(out->gl, v4_lane(&color, lane));
+		of = v4_lane(&albedo, lane);
+		v3_store(out->albedo, v3(of.x, of.y, of.z));
 		out->flags = LANE(lights, uint, lane);
 	}
 	return lanes;

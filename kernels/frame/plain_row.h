@@ -15,7 +15,7 @@ struct plain_row {
 
 /* Their colours. */
 struct plain_colors {
-	struct pack_color gl, shadowed, direct, albedo; /* albedo: where it is asked for */
+	struct vec4_16 gl, shadowed, direct, albedo;    /* albedo: where it is asked for */
 	int is_gl;                                      /* 1: shadowed and direct are gl, and not there */
 };
 
@@ -116,7 +116,7 @@ static inline struct fragment plain_row_fragment(const struct plain_row *row, ui
 }
 
 /* A colour of n numbers that plain_program has left for some lanes. from: the first lane's, in its struct shaded */
-static inline void plain_take_color(__global const float *from, int n, uint lanes, struct pack_color *to)
+static inline void plain_take_color(__global const float *from, int n, uint lanes, struct vec4_16 *to)
 {
 	const uint step = sizeof(struct shaded) / sizeof(float);
 
@@ -124,7 +124,7 @@ static inline void plain_take_color(__global const float *from, int n, uint lane
 		const uint lane = popcount((left & -left) - 1);
 
 		for (int i = 0; i < n; i++)
-			LANE(to->c[i], float, lane) = from[lane * step + i];
+			LANE(CHANNEL(*to, i), float, lane) = from[lane * step + i];
 	}
 }
 
@@ -149,7 +149,7 @@ static inline void plain_shade(const struct plain_arguments *a, const struct sha
 	struct pack *p = &kept->last;
 	__global const struct geometry *g = &t->geometries[row->list.instance[popcount((lanes & -lanes) - 1)]];
 	struct pack_texturing texturing;
-	struct pack_color lit, secondary;
+	struct vec4_16 lit, secondary;
 
 	pack_texture(s, &row->list, p, lanes, kept, &texturing);
 	pack_lit_from_vertices(t, p, &lit, &secondary);
@@ -157,8 +157,7 @@ static inline void plain_shade(const struct plain_arguments *a, const struct sha
 		plain_take_color(a->shaded[row->base].gl, 4, lanes, &out->gl);
 	} else {
 		out->gl = pack_finish(t, p, &texturing, &lit, &secondary);
-		for (int i = 0; i < 3; i++)
-			out->gl.c[i] = pixel_nudge(out->gl.c[i]);
+		out->gl = v4_16(pixel_nudge(out->gl.x), pixel_nudge(out->gl.y), pixel_nudge(out->gl.z), out->gl.w);
 	}
 	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE)
 		out->albedo = pack_albedo(t, &row->list, p, lanes, &texturing, &lit);
@@ -173,8 +172,8 @@ static inline void plain_shade(const struct plain_arguments *a, const struct sha
 	} else if (lanes & row->dimmed && !p->material->surface.relit) {
 		pack_between_relit(s, &row->list, p, lanes & row->dimmed, kept, &lit, &secondary);
 		lit = pack_finish(t, p, &texturing, &lit, &secondary);
-		for (int i = 0; i < 3; i++)
-			out->shadowed.c[i] = select(out->gl.c[i], pixel_nudge(lit.c[i]), pack_mask(row->dimmed));
+		lit = v4_16(pixel_nudge(lit.x), pixel_nudge(lit.y), pixel_nudge(lit.z), out->gl.w);
+		out->shadowed = v4_choose(pack_mask(row->dimmed), lit, out->gl);
 	}
 	out->direct = pack_direct(s, &row->list, p, lanes, &texturing, &out->shadowed, lights);
 }

@@ -66,13 +66,13 @@ WIDE_VECTORS static inline void put_colors(struct shown_row *row, const struct p
 	if (!c->is_gl)
 		spread_gl(row);
 	for (int i = 0; i < 3; i++) {
-		pack_put(&to->gl[i], c->gl.c[i], show);
+		pack_put(&to->gl[i], CHANNEL(c->gl, i), show);
 		if (row->is_gl)
 			continue;
-		pack_put(&to->shadowed[i], c->is_gl ? c->gl.c[i] : c->shadowed.c[i], show);
-		pack_put(&to->direct[i], c->is_gl ? c->gl.c[i] : c->direct.c[i], show);
+		pack_put(&to->shadowed[i], c->is_gl ? CHANNEL(c->gl, i) : CHANNEL(c->shadowed, i), show);
+		pack_put(&to->direct[i], c->is_gl ? CHANNEL(c->gl, i) : CHANNEL(c->direct, i), show);
 	}
-	pack_put(&to->gl[3], c->gl.c[3], show);
+	pack_put(&to->gl[3], c->gl.w, show);
 	pack_put(&to->drawn, (packf)(1), show);
 	pack_put(&to->depth, p->depth, show);
 }
@@ -115,7 +115,7 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 	put_colors(row, p, &colors, show);
 	if (a->request.half_plane[COMPOSE_ALBEDO] != SCENE_NONE)
 		for (int i = 0; i < 3; i++)
-			pack_put(&row->pixels.albedo[i], colors.albedo.c[i], show);
+			pack_put(&row->pixels.albedo[i], CHANNEL(colors.albedo, i), show);
 	if (pack_wants_surface(&a->request) || sends)
 		pack_surface(t, p, &surface);
 	put_surface(a, row, p, &surface, show);

@@ -70,7 +70,7 @@ static inline void send_alone(const struct hit_ray_arguments *a, uint item)
 static inline packu lights_at(const struct hit_ray_arguments *a, const struct pack_points *q)
 {
 	const struct shade_arguments s = { .tables = a->tables };
-	struct pack_lit_here here;
+	struct lit_16 here;
 
 	if (stage_is_path(a->transport))
 		return pack_radiant_lights(&a->tables, &q->p, &q->surface);
@@ -181,9 +181,9 @@ static inline void absorb(const struct tables *t, const struct pack_points *q, s
 /* As hit_color. lit: receives the colours as the vertices have them */
 static inline struct vec3_16 color_of(const struct shade_arguments *s, const struct pack_points *q,
                                        const struct pack_texturing *texturing, struct pack_kept *kept,
-                                       struct pack_color *lit)
+                                       struct vec4_16 *lit)
 {
-	struct pack_color secondary, color, relit;
+	struct vec4_16 secondary, color, relit;
 	uint dimmed = 0;
 	packu lights;
 
@@ -195,11 +195,10 @@ static inline struct vec3_16 color_of(const struct shade_arguments *s, const str
 	if (dimmed) {
 		pack_between_relit(s, &q->list, &q->p, dimmed, kept, &relit, &secondary);
 		relit = pack_finish(&s->tables, &q->p, texturing, &relit, &secondary);
-		for (int i = 0; i < 3; i++)
-			color.c[i] = select(color.c[i], relit.c[i], pack_mask(dimmed));
+		color = v4_choose(pack_mask(dimmed), relit, color);
 	}
 	color = pack_direct(s, &q->list, &q->p, q->lanes, texturing, &color, &lights);
-	return v3_16(color.c[0], color.c[1], color.c[2]);
+	return v3_16(color.x, color.y, color.z);
 }
 
 static inline void store_hits(const struct shade_hit_arguments *a, const struct pack_points *q,
@@ -219,7 +218,7 @@ static inline void shade_hits(const struct shade_hit_arguments *a, const struct 
 {
 	struct pack_texturing texturing;
 	struct pack_split split;
-	struct pack_color lit;
+	struct vec4_16 lit;
 	struct vec3_16 out;
 	struct way way;
 	uint on;
@@ -262,7 +261,7 @@ static inline void shade_bounces(const struct shade_hit_arguments *a, const stru
                                  struct pack_points *q, __global const struct scene_material *m)
 {
 	struct pack_texturing texturing;
-	struct pack_color lit, secondary;
+	struct vec4_16 lit, secondary;
 	struct vec3_16 albedo = v3_16(0, 0, 0);
 	packu pixel = 0, kind = 0;
 	struct vec3_16 out;
@@ -324,7 +323,7 @@ KERNEL_OF(float16) void shade_hit_packet(KERNEL_ARGUMENTS(shade_hit))
 static inline void leave_lanes(const struct leave_arguments *a, struct pack_points *q,
                                __global const struct scene_material *m)
 {
-	struct pack_color lit, secondary;
+	struct vec4_16 lit, secondary;
 	struct pack_texturing texturing;
 	struct pack_branches branches;
 	struct pack_split split;

@@ -6,6 +6,10 @@
 #include "kernels/frame/pack_light.h"
 #include "kernels/gl/vertex.h"
 
+#include "kernels/sixteen_lanes.h"
+#include "kernels/gl/vertex_lanes.h"
+#include "kernels/one_lanes.h"
+
 /* Vertices that follow each other. */
 struct vertex_pack {
 	__global const struct geometry *g;
@@ -13,7 +17,6 @@ struct vertex_pack {
 	uint v; /* of the first one, in the mesh */
 	packf obj[4], eye[4], clip[4];
 	struct vec3_16 normal;
-	packf length2; /* of the normal, before it is made 1 */
 };
 
 /* --- Numbers ----------------------------------------------------------------------------------------------------- */
@@ -56,7 +59,7 @@ WIDE_VECTORS static inline void transform(__global const float *m, const packf *
 WIDE_VECTORS static inline packi load_normals(const struct tables *t, struct vertex_pack *p)
 {
 	__global const float *r = p->g->normal_matrix, *current = t->currents[p->g->current].normal;
-	packf n[4], longest;
+	packf n[4], length2, longest;
 
 	for (int i = 0; i < 3; i++)
 		n[1 + i] = current[i];
@@ -65,11 +68,11 @@ WIDE_VECTORS static inline packi load_normals(const struct tables *t, struct ver
 		load_fours(t->attributes + p->g->normal + p->v * 3 - 1, 3, n);
 	p->normal = v3_16(r[0] * n[1] + r[1] * n[2] + r[2] * n[3], r[4] * n[1] + r[5] * n[2] + r[6] * n[3],
 	                     r[8] * n[1] + r[9] * n[2] + r[10] * n[3]);
-	p->length2 = v3_dot(p->normal, p->normal);
+	length2 = v3_dot(p->normal, p->normal);
 	longest = fmax(fmax(fabs(p->normal.x), fabs(p->normal.y)), fabs(p->normal.z));
 	if (p->m->normalize)
 		p->normal = v3_normalize(p->normal);
-	return (longest < FLT_MIN) | ((p->length2 >= FLT_MIN) & (p->length2 < INFINITY));
+	return (longest < FLT_MIN) | ((length2 >= FLT_MIN) & (length2 < INFINITY));
 }
 
 /* As clip_outside: whether it lies beyond any plane. */
@@ -101,30 +104,19 @@ WIDE_VECTORS static inline void store_window(__global const struct view *view, c
 
 /* --- Colours ----------------------------------------------------------------------------------------------------- */
 
-/* As vertex_clamp. */
-WIDE_VECTORS static inline void clamp_color(uint per_vertex, packf *c)
-{
-	for (int i = 0; i < 4; i++)
-		c[i] = per_vertex ? clamp_vertex(c[i]) : clamp01(c[i]);
-}
-
-/* As light_vertex. */
+/* light_vertex without visibility */
 WIDE_VECTORS static inline void light_side(const struct tables *t, const struct vertex_pack *p, int back,
-                                           const struct pack_color *color, struct pack_lit_here *out)
+                                           struct vec4_16 color, struct lit_16 *out)
 {
 	__global const struct scene_material *m = p->m;
-	const packf all[3] = { 1.0f, 1.0f, 1.0f };
-	struct pack_matter matter;
+	const struct vec3_16 normal = back ? v3_scale(p->normal, (packf)(-1)) : p->normal;
+	struct matter_16 matter;
 
-	pack_material(m, back ? (packi)(-1) : (packi)(0), color, &matter, &out->color);
-	matter.has_gloss |= p->length2 > 1.01f; /* whatever the power of a shorter one's, it is a number: none of it is none */
-	matter.at = v3_16(p->eye[0], p->eye[1], p->eye[2]);
-	matter.normal = back ? v3_scale(p->normal, (packf)(-1)) : p->normal;
-	pack_light_begin(m, &matter, out);
+	light_material(m, &m->front, &m->back, back ? (packi)(-1) : (packi)(0), color, &matter, out);
+	light_begin(m, v3_16(p->eye[0], p->eye[1], p->eye[2]), normal, &matter, out);
 	for (uint i = 0; i < m->light_count; i++)
-		pack_add_light(&matter, &t->lights[m->light_first + i], (1u << PACK_SIZE) - 1, all, (packu)(1u << i),
-		               m->separate_specular, out);
-	pack_light_end(&matter, out);
+		light_add(m, &matter, &t->lights[m->light_first + i], i, 0, out);
+	light_end(m, &matter, out);
 }
 
 /* As vertex_store_colors. */
@@ -135,26 +127,26 @@ WIDE_VECTORS static inline void store_colors(const struct tables *t, const struc
 	__global const struct scene_current *current = &t->currents[g->current];
 	const int is_lit = p->m->lighting != 0, sides = is_lit && p->m->two_side ? 2 : 1,
 		  is_shaded = !(p->m->surface.hidden & SCENE_UNSHADED);
-	struct pack_lit_here lit[2];
-	struct pack_color color;
+	struct lit_16 lit[2];
+	packf color[4], secondary[4];
 
-	load_attribute(g->attributes & SCENE_HAS_COLOR, t->attributes + g->color + p->v * 4, current->color, color.c);
+	load_attribute(g->attributes & SCENE_HAS_COLOR, t->attributes + g->color + p->v * 4, current->color, color);
 	for (int side = 0; side < sides && is_lit; side++)
-		light_side(t, p, side, &color, &lit[side]);
+		light_side(t, p, side, v4_16(color[0], color[1], color[2], color[3]), &lit[side]);
 	if (!is_lit) {
 		load_attribute(g->attributes & SCENE_HAS_SECONDARY, t->attributes + g->secondary + p->v * 4,
-		               current->secondary, lit[0].secondary.c);
-		lit[0].color = color;
-		clamp_color(g->attributes & SCENE_HAS_COLOR, lit[0].color.c);
-		clamp_color(g->attributes & SCENE_HAS_SECONDARY, lit[0].secondary.c);
+		               current->secondary, secondary);
+		lit[0].color = vertex_clamp(v4_16(color[0], color[1], color[2], color[3]), g->attributes & SCENE_HAS_COLOR);
+		lit[0].secondary = vertex_clamp(v4_16(secondary[0], secondary[1], secondary[2], secondary[3]),
+		                                g->attributes & SCENE_HAS_SECONDARY);
 		lit[0].lights = 0;
 	}
 	for (int i = 0; i < 2; i++) {
-		const struct pack_lit_here *l = &lit[i < sides ? i : 0];
+		const struct lit_16 *l = &lit[i < sides ? i : 0];
 
-		store_fours(l->color.c[0], l->color.c[1], l->color.c[2], l->color.c[3], to->color[i], sizeof(*to) / 4);
-		store_fours(l->secondary.c[0], l->secondary.c[1], l->secondary.c[2], l->secondary.c[3],
-		            to->secondary[i], sizeof(*to) / 4);
+		store_fours(l->color.x, l->color.y, l->color.z, l->color.w, to->color[i], sizeof(*to) / 4);
+		store_fours(l->secondary.x, l->secondary.y, l->secondary.z, l->secondary.w, to->secondary[i],
+		            sizeof(*to) / 4);
 		for (uint lane = 0; lane < PACK_SIZE; lane++)
 			to[lane].lit[i] = is_shaded ? LANE(l->lights, const uint, lane) : 0;
 	}

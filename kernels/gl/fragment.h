@@ -13,6 +13,16 @@ struct texturing {
 	float fog_factor;
 };
 
+/* Base format that environments go by: depths count as what they are sampled as (sec. 3.8.14). */
+static inline uint32_t point_unit_format(const struct tables *t, GLOBAL const struct scene_unit *unit)
+{
+	uint32_t format = t->textures[unit->texture].base_format;
+
+	return format == GL_DEPTH_COMPONENT ? unit->depth_mode : format;
+}
+
+#include "kernels/gl/finish_lanes.h"
+
 static inline struct vec4 point_texcoord(const struct tables *t, const struct point *p, uint32_t i,
                                          const float *weight)
 {
@@ -184,7 +194,7 @@ static inline void point_weights_at(const struct point *p, GLOBAL const struct v
 		weight[i] *= sum;
 }
 
-/* Sec. 3.10. Where linear fog has no length the specification says nothing: Mesa (22.3.6) has c - end. */
+/* Sec. 3.10. */
 static inline float point_fog(const struct point *p)
 {
 	GLOBAL const struct scene_material *m = p->material;
@@ -192,7 +202,7 @@ static inline float point_fog(const struct point *p)
 	          p->vertex[2]->fog_coord * p->weight[2];
 
 	if (m->fog_mode == GL_LINEAR)
-		return clamp01(m->fog_end == m->fog_start ? c - m->fog_end : (m->fog_end - c) / (m->fog_end - m->fog_start));
+		return fog_linear(m, c);
 	if (m->fog_mode == GL_EXP2)
 		return clamp01(M_EXP(-(m->fog_density * c) * (m->fog_density * c)));
 	return clamp01(M_EXP(-m->fog_density * c));
@@ -297,58 +307,18 @@ static inline void point_texture(const struct tables *t, const struct point *p, 
 	texturing->fog_factor = m->fog ? point_fog(p) : 1.0f;
 }
 
-/* Base format that environments go by: depths count as what they are sampled as (sec. 3.8.14). */
-static inline uint32_t point_unit_format(const struct tables *t, GLOBAL const struct scene_unit *unit)
-{
-	uint32_t format = t->textures[unit->texture].base_format;
-
-	return format == GL_DEPTH_COMPONENT ? unit->depth_mode : format;
-}
-
-/*
- * Texture environments, colour sum and fog over a lit colour; clamped after all of them, as Mesa (22.3.6) does, where
- * sec. 3.9 clamps the sum before the fog. fog_factor: 1 leaves the colour as it is. without: 1 + the number of a unit
- * that is passed by; 0: none
- */
-static inline struct vec4 point_finish_in_fog(const struct tables *t, const struct point *p,
-                                              const struct texturing *texturing, const struct lit *lit,
-                                              float fog_factor, uint32_t without)
-{
-	GLOBAL const struct scene_material *m = p->material;
-	struct vec4 color = lit->color;
-
-	for (uint32_t i = 0u; i < m->unit_count; i++) {
-		GLOBAL const struct scene_unit *unit = &t->units[m->unit_first + i];
-		struct vec4 sample = texturing->sample[unit->unit];
-
-		if (unit->unit + 1u == without)
-			continue;
-		color = unit->env_mode == GL_COMBINE || unit->env_mode == GL_COMBINE4_NV ?
-		                combine_full(unit, color, sample, lit->color, texturing->sample) :
-		                combine_plain(unit->env_mode, point_unit_format(t, unit), color, sample, v4_load(unit->env_color));
-	}
-	if (m->color_sum || (m->lighting && m->separate_specular))
-		color = v4(color.x + lit->secondary.x, color.y + lit->secondary.y, color.z + lit->secondary.z, color.w);
-	if (m->fog) {
-		float f = fog_factor;
-
-		color = v4(color.x * f + m->fog_color[0] * (1.0f - f), color.y * f + m->fog_color[1] * (1.0f - f),
-		           color.z * f + m->fog_color[2] * (1.0f - f), color.w);
-	}
-	return m->unclamped & 1u ? color : v4_clamp01(color);
-}
-
 static inline struct vec4 point_finish(const struct tables *t, const struct point *p, const struct texturing *texturing,
                                        const struct lit *lit)
 {
-	return point_finish_in_fog(t, p, texturing, lit, texturing->fog_factor, 0u);
+	return finish_in_fog(t, p->material, texturing->sample, lit, texturing->fog_factor, 0u);
 }
 
 /* The same without light that a texture holds. */
 static inline struct vec4 point_finish_relit(const struct tables *t, const struct point *p,
                                              const struct texturing *texturing, const struct lit *lit)
 {
-	return point_finish_in_fog(t, p, texturing, lit, texturing->fog_factor, p->material->surface.light_unit);
+	return finish_in_fog(t, p->material, texturing->sample, lit, texturing->fog_factor,
+	                     p->material->surface.light_unit);
 }
 
 /* The surface's own colour under white light: what the albedo channel shows. lit: point_lit_from_vertices */
@@ -370,7 +340,7 @@ static inline struct vec4 point_albedo_of(const struct tables *t, const struct p
 	else if (m->surface.light_unit == SCENE_LIGHT_IN_COLORS)
 		lit.color = point_matte_color(t, p);
 	lit.secondary = v4(0.0f, 0.0f, 0.0f, 0.0f);
-	return point_finish_in_fog(t, p, texturing, &lit, 1.0f, m->surface.light_unit);
+	return finish_in_fog(t, m, texturing->sample, &lit, 1.0f, m->surface.light_unit);
 }
 
 static inline struct vec4 point_albedo(const struct tables *t, const struct point *p, const struct texturing *texturing)

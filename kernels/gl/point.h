@@ -300,10 +300,7 @@ static inline int point_clipped(const struct point *p)
 
 static inline struct vec4 point_mix(const struct point *p, struct vec4 a, struct vec4 b, struct vec4 c)
 {
-	return v4_add(a, v4_add(v4_scale(v4_sub(b, a), p->weight[1]), v4_scale(v4_sub(c, a), p->weight[2]))); /* equals
-	                                                                                                         give
-	                                                                                                         themselves
-	                                                                                                       */
+	return v4_between(a, b, c, p->weight);
 }
 
 /* Side whose colours count: the back one only under two-sided lighting (sec. 2.14.1). */

@@ -29,14 +29,7 @@ static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLO
 	return m->normalize ? v3_normalize(eye) : eye;
 }
 
-/*
- * A colour without lighting, clamped (sec. 2.14.6). What the specification leaves open: llvmpipe makes a NaN 1 where
- * vertices carry the colour, and 0 where it is the current one.
- */
-static inline struct vec4 vertex_clamp(struct vec4 c, uint32_t per_vertex)
-{
-	return per_vertex ? v4_clamp_vertex(c) : v4_clamp01(c);
-}
+#include "kernels/gl/vertex_lanes.h"
 
 /* One side's colour of a vertex; `seen` as in light_vertex. The fragment stage calls this again for shadows. */
 static inline struct lit vertex_color(const struct tables *t, GLOBAL const struct geometry *g,
