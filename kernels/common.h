@@ -120,12 +120,3 @@ static inline void v4_store(GLOBAL float *p, struct vec4 v)
 
 #include "kernels/one_lanes.h"
 #include "kernels/vector_lanes.h"
-
-/* Column-major matrix times column vector, summed column by column as Mesa's vertex programs do. */
-static inline struct vec4 m4_mul(GLOBAL const float *m, struct vec4 v)
-{
-	return v4(m[0] * v.x + m[4] * v.y + m[8] * v.z + m[12] * v.w,
-	          m[1] * v.x + m[5] * v.y + m[9] * v.z + m[13] * v.w,
-	          m[2] * v.x + m[6] * v.y + m[10] * v.z + m[14] * v.w,
-	          m[3] * v.x + m[7] * v.y + m[11] * v.z + m[15] * v.w);
-}

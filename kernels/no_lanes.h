@@ -18,6 +18,7 @@
 #undef CHOOSE3
 #undef CHOOSE4
 #undef MOST
+#undef LEAST
 #undef ROUND
 #undef TO_REAL
 #undef TO_WORD

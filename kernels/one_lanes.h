@@ -11,7 +11,7 @@
  * SAME3 SAME4    the same of a vector
  * IF_ALL(x)      a MASK of what is true in all lanes or in none; ANY(mask): whether it is true in any
  * CHOOSE(mask, yes, no), CHOOSE3, CHOOSE4  of REALs and vectors. Sixteen lanes work out both: no branch is spared
- * MOST(x, y)     the larger one; of a NaN, either
+ * MOST(x, y), LEAST  the larger and the smaller one; of a NaN, either
  * ROUND          to the nearest whole number, the even one of two
  * TO_REAL TO_WORD TO_INT  the same value; BITS OF_BITS AS_INT AS_WORD: the same bits
  *
@@ -38,6 +38,7 @@
 #define CHOOSE3(mask, yes, no) ((mask) ? (yes) : (no))
 #define CHOOSE4(mask, yes, no) ((mask) ? (yes) : (no))
 #define MOST(x, y) M_MAX(x, y)
+#define LEAST(x, y) M_MIN(x, y)
 #define ROUND(x) M_RINT(x)
 #define TO_REAL(x) ((float)(x))
 #define TO_WORD(x) ((uint32_t)(x))

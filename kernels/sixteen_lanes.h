@@ -20,6 +20,7 @@
 #define CHOOSE3(mask, yes, no) v3_choose(mask, yes, no)
 #define CHOOSE4(mask, yes, no) v4_choose(mask, yes, no)
 #define MOST(x, y) pack_max(x, y)
+#define LEAST(x, y) pack_min(x, y)
 #define ROUND(x) pack_round(x)
 #define TO_REAL(x) convert_float16(x)
 #define TO_WORD(x) convert_uint16(x)

@@ -106,3 +106,12 @@ LANES VEC4 v4_clamp_vertex(VEC4 a)
 {
 	return V4(clamp_vertex(a.x), clamp_vertex(a.y), clamp_vertex(a.z), clamp_vertex(a.w));
 }
+
+/* Column-major matrix times column vector, summed column by column as Mesa's vertex programs do. */
+LANES VEC4 m4_mul(GLOBAL const float *m, VEC4 v)
+{
+	return V4(m[0] * v.x + m[4] * v.y + m[8] * v.z + m[12] * v.w,
+	          m[1] * v.x + m[5] * v.y + m[9] * v.z + m[13] * v.w,
+	          m[2] * v.x + m[6] * v.y + m[10] * v.z + m[14] * v.w,
+	          m[3] * v.x + m[7] * v.y + m[11] * v.z + m[15] * v.w);
+}

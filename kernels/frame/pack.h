@@ -10,6 +10,16 @@
 #include "kernels/gl/stages.h"
 #include "kernels/rays/gather.h"
 
+/* As struct window_vertex. */
+struct window_vertex_16 {
+	packi x, y;
+	packf z, w_inv;
+};
+
+#include "kernels/sixteen_lanes.h"
+#include "kernels/gl/clip_lanes.h"
+#include "kernels/one_lanes.h"
+
 #define PACK_SIZE 16u
 
 /* Fragments as they stand in the list. item: where they stand */
@@ -287,17 +297,12 @@ WIDE_VECTORS static inline void pack_window(const struct tables *t, __global con
 /* Where the vertices fall, not snapped. */
 WIDE_VECTORS static inline void pack_corners(const struct shade_arguments *a, struct pack *p)
 {
-	__global const struct view *view = p->view;
-	const float half_x = view->viewport[2] * 0.5f, half_y = -view->viewport[3] * 0.5f;
-	const float middle_x = view->viewport[0] + view->viewport[2] * 0.5f;
-	const float middle_y = (float)a->height - (view->viewport[1] + view->viewport[3] * 0.5f);
-
 	for (int k = 0; k < 3; k++) {
-		packf clip[4];
+		packf place[2];
 
-		pack_vertex(&a->tables, p, k, PACK_CLIP, clip);
-		p->px[k] = fma((packf)(half_x), clip[0] * (1.0f / clip[3]), (packf)(middle_x)) - clip_origin(view);
-		p->py[k] = fma((packf)(half_y), clip[1] * (1.0f / clip[3]), (packf)(middle_y)) - clip_origin(view);
+		clip_place(p->view, pack_vertex4(&a->tables, p, k, PACK_CLIP), (float)a->height, place);
+		p->px[k] = place[0] - clip_origin(p->view);
+		p->py[k] = place[1] - clip_origin(p->view);
 	}
 }
 

@@ -49,14 +49,7 @@ struct clip_polygon {
 
 /* --- The window -------------------------------------------------------------------------------------------------- */
 
-/* Where a vertex falls in the window, in pixels, y from the top: Mesa draws to a window with y running down. */
-static inline void clip_place(GLOBAL const struct view *view, struct vec4 clip, float height, float *place)
-{
-	float w_inv = 1.0f / clip.w;
-
-	place[0] = M_FMA(view->viewport[2] * 0.5f, clip.x * w_inv, view->viewport[0] + view->viewport[2] * 0.5f);
-	place[1] = M_FMA(-view->viewport[3] * 0.5f, clip.y * w_inv, height - (view->viewport[1] + view->viewport[3] * 0.5f));
-}
+#include "kernels/gl/clip_lanes.h"
 
 /* A place in the window, 1/256 pixel, y from the bottom. */
 struct clip_spot {
@@ -164,47 +157,6 @@ static inline float clip_plane_in(const struct clip_plane *p, GLOBAL const struc
 {
 	return clip_plane_at(p, clip_from_origin(view, x, view->sample[0]),
 	                     clip_from_origin(view, (int32_t)height - 1 - y, -view->sample[1]));
-}
-
-/* The planes that a point lies beyond, a bit each in the order in which they cut. */
-static inline uint32_t clip_outside(struct vec4 c)
-{
-	return (!(c.x <= c.w) ? 1u : 0u) | (!(c.x + c.w >= 0.0f) ? 2u : 0u) | (!(c.y <= c.w) ? 4u : 0u) |
-	       (!(c.y + c.w >= 0.0f) ? 8u : 0u) | (!(c.z + c.w >= 0.0f) ? 16u : 0u) | (!(c.z <= c.w) ? 32u : 0u);
-}
-
-static inline int clip_is_safe(const float *place)
-{
-	return M_ABS(place[0]) < CLIP_SAFE_PIXELS && M_ABS(place[1]) < CLIP_SAFE_PIXELS;
-}
-
-/*
- * Window coordinates in 1/256 pixel. Rounding of halves follows Mesa's direction of y: it is snapped so, and turned
- * over.
- */
-static inline struct window_vertex clip_snap(const float *place, float z, float w_inv, float height)
-{
-	struct window_vertex out;
-
-	out.x = (int32_t)M_RINT((place[0] - 0.5f) * 256.0f) + 128;
-	out.y = (int32_t)height * 256 - ((int32_t)M_RINT((place[1] - 0.5f) * 256.0f) + 128);
-	out.z = z;
-	out.w_inv = w_inv;
-	return out;
-}
-
-/* A vertex of the program's in the window; all 0 where it lies outside of the view volume. */
-static inline struct window_vertex clip_window(GLOBAL const struct view *view, struct vec4 clip, float height)
-{
-	float near = view->depth_range[0], far = view->depth_range[1], w_inv = 1.0f / clip.w, place[2];
-	struct window_vertex none;
-
-	none.x = none.y = 0;
-	none.z = none.w_inv = 0.0f;
-	clip_place(view, clip, height, place);
-	if (!(clip.w > 0.0f) || clip_outside(clip) || !clip_is_safe(place))
-		return none;
-	return clip_snap(place, M_FMA((far - near) * 0.5f, clip.z * w_inv, (far + near) * 0.5f), w_inv, height);
 }
 
 /* --- Cutting ----------------------------------------------------------------------------------------------------- */

@@ -8,6 +8,8 @@
 #include "kernels/gl/light.h"
 #include "kernels/gl/tables.h"
 
+#include "kernels/gl/vertex_lanes.h"
+
 /* Mesa's vertex programs know no denormal numbers: those below FLT_MIN. */
 static inline float vertex_flush(float a)
 {
@@ -17,9 +19,7 @@ static inline float vertex_flush(float a)
 static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLOBAL const struct scene_material *m,
                                             struct vec3 n)
 {
-	GLOBAL const float *r = g->normal_matrix;
-	struct vec3 eye = v3(r[0] * n.x + r[1] * n.y + r[2] * n.z, r[4] * n.x + r[5] * n.y + r[6] * n.z,
-	                     r[8] * n.x + r[9] * n.y + r[10] * n.z);
+	struct vec3 eye = vertex_turn_normal(g->normal_matrix, n);
 	struct vec3 flushed = v3(vertex_flush(eye.x), vertex_flush(eye.y), vertex_flush(eye.z));
 
 	/* A normal too short to square has length 0 there, and becomes infinite. */
@@ -28,8 +28,6 @@ static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLO
 		return v3_scale(flushed, M_FLOAT(0x7f800000u));
 	return m->normalize ? v3_normalize(eye) : eye;
 }
-
-#include "kernels/gl/vertex_lanes.h"
 
 /* One side's colour of a vertex; `seen` as in light_vertex. The fragment stage calls this again for shadows. */
 static inline struct lit vertex_color(const struct tables *t, GLOBAL const struct geometry *g,
@@ -58,14 +56,6 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 	}
 	lit.lights = 0u;
 	return lit;
-}
-
-/* How far fog lies before a vertex in eye space (NV_fog_distance); squares add up as Mesa's dot products do. */
-static inline float vertex_fog_distance(uint32_t source, struct vec4 eye)
-{
-	if (source == GL_EYE_RADIAL_NV)
-		return M_SQRT(eye.z * eye.z + eye.y * eye.y + eye.x * eye.x);
-	return source == GL_EYE_PLANE ? eye.z : M_ABS(eye.z);
 }
 
 /* Both sides' colours of a vertex that has its place and its normal. m: its material */
@@ -125,21 +115,6 @@ static inline struct vec4 vertex_texcoord(const struct tables *t, GLOBAL const s
                                           struct vec4 eye, struct vec3 n)
 {
 	return vertex_generated(unit, tables_texcoord(t, g, v, unit->unit), obj, eye, n);
-}
-
-/*
- * Size of a point after attenuation (sec. 3.3), before it is rounded to pixels. The distance is the depth alone, as
- * Mesa has it (22.3.6, build_atten_pointsize).
- */
-static inline float vertex_point_size(GLOBAL const struct scene_material *m, struct vec4 eye)
-{
-	float d = M_ABS(eye.z);
-	float fade = m->point_attenuation[0] + d * (m->point_attenuation[1] + d * m->point_attenuation[2]);
-	float size = m->point_size;
-
-	if (fade != 1.0f && fade > 0.0f)
-		size *= M_SQRT(1.0f / fade);
-	return M_MIN(M_MAX(size, m->point_size_min), m->point_size_max);
 }
 
 /*
