@@ -50,8 +50,8 @@ WIDE_VECTORS static inline packi pack_footprint(const struct pack_level *l, cons
 	out->first_x = pack_floor(out->u - reach_u);
 	out->first_y = pack_floor(out->v - reach_v);
 	lanes &= (reach_u < 64.0f) & (reach_v < 64.0f) & (fabs(out->u) < TEXTURE_FAR) & (fabs(out->v) < TEXTURE_FAR);
-	out->columns = (pack_int(-pack_floor(-(out->u + reach_u)) - out->first_x) + 1) & lanes;
-	out->rows = (pack_int(-pack_floor(-(out->v + reach_v)) - out->first_y) + 1) & lanes;
+	out->columns = (texture_int(-pack_floor(-(out->u + reach_u)) - out->first_x) + 1) & lanes;
+	out->rows = (texture_int(-pack_floor(-(out->v + reach_v)) - out->first_y) + 1) & lanes;
 	return lanes;
 }
 
@@ -75,8 +75,8 @@ WIDE_VECTORS static inline packi pack_row_of_ellipse(const struct pack_footprint
 {
 	const packf bdy = at->b * dy, rest = bdy * bdy - 4.0f * at->a * (at->e * dy * dy - 1040.0f);
 	const packf half_width = sqrt(select((packf)(0), rest, rest > 0.0f)), over = 0.5f / at->a, from = at->u - at->first_x;
-	const packi begin = pack_int(-pack_floor(0.01f - (from - (bdy + half_width) * over)));
-	const packi end = pack_int(pack_floor(from + (half_width - bdy) * over + 0.01f)) + 1;
+	const packi begin = texture_int(-pack_floor(0.01f - (from - (bdy + half_width) * over)));
+	const packi end = texture_int(pack_floor(from + (half_width - bdy) * over + 0.01f)) + 1;
 
 	*first = max(begin, (packi)(0));
 	return (min(end, at->columns) - *first) & rows_left & (rest > 0.0f);
@@ -106,14 +106,16 @@ WIDE_VECTORS static inline packi pack_ellipse(const struct tables *tables, __glo
 		packi first;
 		const packi columns = pack_row_of_ellipse(at, dy, j < at->rows, &first);
 		const int most = pack_most(columns);
-		const packu row = l->first + as_uint16(pack_place_texel(unit->wrap_t, pack_int(y), l->height) * l->width);
+		const packu row = l->first +
+		                  as_uint16(pack_place_texel(unit->wrap_t, texture_int(y), l->height) * l->width);
 
 		for (int k = 0; k < most; k++) {
 			const packf x = at->first_x + convert_float16(first + k), dx = x - at->u;
 			const packf q = (at->e * dy + at->b * dx) * dy + at->a * dx * dx;
 			const packf weight = pack_gauss(q, (q < 1024.0f) & (k < columns)), scale = 1.0f / 255.0f;
 			const packu texel = pack_texels(
-				tables->texels, row + as_uint16(pack_place_texel(unit->wrap_s, pack_int(x), l->width)));
+				tables->texels,
+				row + as_uint16(pack_place_texel(unit->wrap_s, texture_int(x), l->width)));
 
 			red += convert_float16(texel & 255) * scale * weight;
 			green += convert_float16(texel >> 8 & 255) * scale * weight;

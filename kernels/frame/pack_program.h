@@ -48,10 +48,14 @@ WIDE_VECTORS static inline packf pack_result(uint operation, packf a, packf b, p
 	case SCENE_OP_FRACTION: return a - floor(a);
 	case SCENE_OP_RECIPROCAL: return 1.0f / a;
 	case SCENE_OP_INVERSE_ROOT: return 1.0f / sqrt(fabs(a));
-	case SCENE_OP_EXP2: return pack_function_exp2(a);
-	case SCENE_OP_LOG2: return pack_function_log2(a);
-	case SCENE_OP_SINE: return pack_function_turn(a, 0);
-	case SCENE_OP_COSINE: return pack_function_turn(a, 1);
+	case SCENE_OP_EXP2:
+		return function_exp2(a);
+	case SCENE_OP_LOG2:
+		return function_log2(a);
+	case SCENE_OP_SINE:
+		return function_turn(a, 0);
+	case SCENE_OP_COSINE:
+		return function_turn(a, 1);
 	case SCENE_OP_SQUARE_ROOT: return sqrt(a);
 	case SCENE_OP_TRUNCATE: return select(floor(a), -floor(-a), a < 0.0f);
 	case SCENE_OP_ROUND: return rint(a);
@@ -63,7 +67,8 @@ WIDE_VECTORS static inline packf pack_result(uint operation, packf a, packf b, p
 	case SCENE_OP_MAXIMUM: return fmax(a, b);
 	case SCENE_OP_LESS: return pack_truth(a < b);
 	case SCENE_OP_GREATER_EQUAL: return pack_truth(a >= b);
-	case SCENE_OP_POWER: return pack_function_power(a, b);
+	case SCENE_OP_POWER:
+		return function_power(a, b);
 	case SCENE_OP_DIVIDE: return a / b;
 	case SCENE_OP_EQUAL: return pack_truth(a == b);
 	case SCENE_OP_NOT_EQUAL: return pack_truth(a != b);

@@ -12,11 +12,9 @@
 
 /* --- Numbers ----------------------------------------------------------------------------------------------------- */
 
-/* As texture_int. */
-WIDE_VECTORS static inline packi pack_int(packf x)
-{
-	return convert_int16(select((packf)(-1.0e9f), select((packf)(1.0e9f), x, x < 1.0e9f), x > -1.0e9f));
-}
+#include "kernels/sixteen_lanes.h"
+#include "kernels/gl/texture_lanes.h"
+#include "kernels/one_lanes.h"
 
 /* All lanes of a mask. */
 static inline packi pack_mask(uint lanes)
@@ -111,7 +109,7 @@ WIDE_VECTORS static inline void pack_wrap_8(uint wrap, packf s, packi n, packi *
 
 	if (wrap == GL_REPEAT && any_pack(~power_of_two))
 		at = select((s - pack_floor(s)) * convert_float16(n) * 256.0f, at, power_of_two);
-	fixed = pack_int(pack_round(at)) - 128;
+	fixed = texture_int(pack_round(at)) - 128;
 	place = as_int16((as_uint16(fixed) + 0x80000000u) >> 8) - 0x800000;
 	*weight = as_uint16(fixed & 255);
 	if (wrap == GL_REPEAT) {
@@ -133,22 +131,13 @@ WIDE_VECTORS static inline packi pack_wrap_nearest(uint wrap, packf s, int n)
 
 	if (wrap == GL_REPEAT && n & (n - 1))
 		s -= pack_floor(s);
-	place = pack_int(pack_floor(s * (float)n));
+	place = texture_int(pack_floor(s * (float)n));
 	if (wrap != GL_REPEAT)
 		return clamp(place, (packi)(0), (packi)(n - 1));
 	if (!(n & (n - 1)))
 		return place & (n - 1);
 	place = select(place, place + n, place < 0);
 	return clamp(select(place, place - n, place >= n), (packi)(0), (packi)(n - 1)); /* coordinates may be no numbers */
-}
-
-/* As texture_mix_8. */
-WIDE_VECTORS static inline packu pack_mix_8(packu a, packu b, packu weight)
-{
-	const packu even = (a & 0xff00ffu) * (256u - weight) + (b & 0xff00ffu) * weight + 0x800080u;
-	const packu odd = (a >> 8 & 0xff00ffu) * (256u - weight) + (b >> 8 & 0xff00ffu) * weight + 0x800080u;
-
-	return (even >> 8 & 0xff00ffu) | (odd & 0xff00ff00u);
 }
 
 WIDE_VECTORS static inline packu pack_texels(__global const uint *texels, packu place)
@@ -174,13 +163,13 @@ WIDE_VECTORS static inline packu pack_level_8(const struct tables *t, __global c
 		const packu row0 = l->first + as_uint16(z[k] * slice + y0 * l->width),
 			    row1 = l->first + as_uint16(z[k] * slice + y1 * l->width);
 
-		texel[k] = pack_mix_8(pack_mix_8(pack_texels(t->texels, row0 + as_uint16(x0)),
-		                                 pack_texels(t->texels, row0 + as_uint16(x1)), wx),
-		                      pack_mix_8(pack_texels(t->texels, row1 + as_uint16(x0)),
-		                                 pack_texels(t->texels, row1 + as_uint16(x1)), wx),
-		                      wy);
+		texel[k] = texture_mix_8(texture_mix_8(pack_texels(t->texels, row0 + as_uint16(x0)),
+		                                       pack_texels(t->texels, row0 + as_uint16(x1)), wx),
+		                         texture_mix_8(pack_texels(t->texels, row1 + as_uint16(x0)),
+		                                       pack_texels(t->texels, row1 + as_uint16(x1)), wx),
+		                         wy);
 	}
-	return n == 2 ? pack_mix_8(texel[0], texel[1], wz) : texel[0];
+	return n == 2 ? texture_mix_8(texel[0], texel[1], wz) : texel[0];
 }
 
 /* The nearest texels of level 0. c: as of pack_level_8 */
@@ -194,16 +183,6 @@ WIDE_VECTORS static inline packu pack_nearest(const struct tables *t, __global c
 		row += pack_wrap_nearest(unit->wrap_r, c[2], (int)image->depth) * (int)image->height;
 	return pack_texels(t->texels + image->level_first[0],
 	                   as_uint16(row * (int)image->width + pack_wrap_nearest(unit->wrap_s, c[0], (int)image->width)));
-}
-
-/* As texture_half_log2. */
-WIDE_VECTORS static inline packf pack_half_log2(packf rho2)
-{
-	const packu bits = as_uint16(rho2);
-	const packf between = 0.5f * (convert_float16(as_int16(bits >> 23) - 127) +
-	                              (as_float16((bits & 0x7fffffu) | 0x3f800000u) - 1.0f));
-
-	return select((packf)(-100), select((packf)(100), between, rho2 < 1.0e30f), rho2 > 1.0e-30f);
 }
 
 /* Planes of texture coordinates s, t, r and q over w. */
@@ -252,7 +231,7 @@ WIDE_VECTORS static inline packf pack_lod(__global const struct scene_unit *unit
 
 	if (anisotropic)
 		rho2 = fmax(fmin(right, down), rho2 / (unit->max_anisotropy * unit->max_anisotropy));
-	return fmin(fmax(pack_half_log2(rho2) + unit->lod_bias, (packf)(unit->min_lod)), (packf)(unit->max_lod));
+	return fmin(fmax(texture_half_log2(rho2) + unit->lod_bias, (packf)(unit->min_lod)), (packf)(unit->max_lod));
 }
 
 /* Linear filtering: one or two levels a lane. c: as of pack_level_8 */
@@ -280,7 +259,7 @@ WIDE_VECTORS static inline packu pack_filter(const struct tables *t, __global co
 		return texel;
 	l = pack_level(image, fine - both);
 	return select(texel,
-	              pack_mix_8(texel, pack_level_8(t, unit, &l, c),
-	                         convert_uint16(select((packf)(0), part, both) * 256.0f)),
+	              texture_mix_8(texel, pack_level_8(t, unit, &l, c),
+	                            convert_uint16(select((packf)(0), part, both) * 256.0f)),
 	              both);
 }

@@ -25,11 +25,7 @@ static inline int texture_modulo(int i, int n)
 	return r < 0 ? r + n : r;
 }
 
-/* An integer of a coordinate that may be anything, NaN too. */
-static inline int texture_int(float x)
-{
-	return x > -1.0e9f ? (x < 1.0e9f ? (int)x : 1000000000) : -1000000000;
-}
+#include "kernels/gl/texture_lanes.h"
 
 /* A texel beyond the image: clamped, or the border (its texel where the image has one, else the border colour). */
 static inline int texture_edge(uint32_t wrap, int i, int n, uint32_t border)
@@ -139,15 +135,6 @@ static inline struct vec4 texture_texel(const struct tables *t, GLOBAL const str
  * count in 1/256 texel, and each interpolation rounds to 8 bits. The specification leaves the precision open. Exact
  * filtering differs by up to 1.5/255, which gate P sees on a large textured area.
  */
-
-/* Four channels at once. weight: of b, 0 to 255 for [0,1) */
-static inline uint32_t texture_mix_8(uint32_t a, uint32_t b, uint32_t weight)
-{
-	uint32_t even = (a & 0xff00ffu) * (256u - weight) + (b & 0xff00ffu) * weight + 0x800080u;
-	uint32_t odd = (a >> 8 & 0xff00ffu) * (256u - weight) + (b >> 8 & 0xff00ffu) * weight + 0x800080u;
-
-	return (even >> 8 & 0xff00ffu) | (odd & 0xff00ff00u);
-}
 
 static inline int texture_wrap_is_plain(uint32_t wrap)
 {
@@ -398,18 +385,6 @@ static inline struct texture_slope texture_slope(GLOBAL const struct texture_ima
 	slope.right = v4_mul(v4_sub(v4_scale(right, 1.0f / right.w), at), size);
 	slope.down = v4_mul(v4_sub(v4_scale(below, 1.0f / below.w), at), size);
 	return slope;
-}
-
-/* log2 of the square of a number of texels, halved: llvmpipe's logarithm, exact at powers of two, straight between. */
-static inline float texture_half_log2(float rho2)
-{
-	uint32_t bits = M_BITS(rho2);
-
-	if (!(rho2 > 1.0e-30f))
-		return -100.0f;
-	if (!(rho2 < 1.0e30f))
-		return 100.0f;
-	return 0.5f * ((float)((int)(bits >> 23) - 127) + (M_FLOAT((bits & 0x7fffffu) | 0x3f800000u) - 1.0f));
 }
 
 static inline float texture_lod(GLOBAL const struct scene_unit *unit, const struct texture_slope *slope,
