@@ -10,7 +10,7 @@
 #include "tests/case.h"
 
 #define BITS_OF(depth, stencil, alpha) ((depth) | (stencil) << 8 | (alpha) << 16)
-#define BITS BITS_OF(24u, 8u, 8u)
+#define BUFFER_BITS BITS_OF(24u, 8u, 8u)
 
 START_TEST(test_comparisons)
 {
@@ -183,7 +183,7 @@ START_TEST(test_stencil_test)
 		m.stencil_front = i % 2 ? other : used;
 		m.stencil_back = i % 2 ? used : other;
 		s.flags &= i % 2 ? ~SHADED_FRONT : ~0u;
-		ck_assert_msg(pixel_tests(&m, &s, &pixel, BITS) == rows[row].drawn, "row %zu", row);
+		ck_assert_msg(pixel_tests(&m, &s, &pixel, BUFFER_BITS) == rows[row].drawn, "row %zu", row);
 		ck_assert_msg(pixel.stencil == rows[row].left, "row %zu: %#x, not %#x", row, pixel.stencil, rows[row].left);
 		ck_assert_uint_eq(pixel.depth, rows[row].drawn ? 0x400000 : 0x800000);
 	}
@@ -226,20 +226,20 @@ START_TEST(test_alpha_and_samples)
 	for (int code = 0; code < 256; code += 51) {
 		s = fragment_of((float)code / 255, 0);
 		m.alpha_ref = 102.2f / 255; /* 102 */
-		ck_assert_int_eq(pixel_tests(&m, &s, &pixel, BITS), code > 102);
+		ck_assert_int_eq(pixel_tests(&m, &s, &pixel, BUFFER_BITS), code > 102);
 	}
 	m = (struct scene_material){ .alpha_to_coverage = 1 };
 	for (uint32_t sample = 0; sample < 4; sample++)
 		for (int quarter = 0; quarter <= 4; quarter++) {
 			s = fragment_of(0.25f * (float)quarter, 0);
 			m.alpha_to_coverage = 1;
-			ck_assert_int_eq(pixel_tests(&m, &s, &pixel, BITS | (sample + 1) << 24), quarter > (int)sample);
+			ck_assert_int_eq(pixel_tests(&m, &s, &pixel, BUFFER_BITS | (sample + 1) << 24), quarter > (int)sample);
 			m.alpha_to_coverage = 0;
-			ck_assert_int_eq(pixel_tests(&m, &s, &pixel, BITS | (sample + 1) << 24), 1);
+			ck_assert_int_eq(pixel_tests(&m, &s, &pixel, BUFFER_BITS | (sample + 1) << 24), 1);
 			m.samples_off = 1u << sample;
-			ck_assert_int_eq(pixel_tests(&m, &s, &pixel, BITS | (sample + 1) << 24), 0);
+			ck_assert_int_eq(pixel_tests(&m, &s, &pixel, BUFFER_BITS | (sample + 1) << 24), 0);
 			m.samples_off = 15u & ~m.samples_off;
-			ck_assert_int_eq(pixel_tests(&m, &s, &pixel, BITS | (sample + 1) << 24), 1);
+			ck_assert_int_eq(pixel_tests(&m, &s, &pixel, BUFFER_BITS | (sample + 1) << 24), 1);
 			m.samples_off = 0;
 		}
 }
