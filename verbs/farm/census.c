@@ -27,7 +27,7 @@ static int count_line(const struct farm_job *job, const char *line, struct censu
 	}
 	if (strstr(verdict, "damaged"))
 		found = CENSUS_DAMAGED;
-	else if (strstr(verdict, "otherwise"))
+	else if (strstr(verdict, "other settings"))
 		found = CENSUS_OUTDATED;
 	if (MEMORY_GROW(c->wanting, *room, c->n_wanting + 1))
 		return ERR_SYSTEM;
