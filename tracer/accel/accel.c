@@ -12,27 +12,27 @@
 #include "tracer/accel/tlas.h"
 
 /*
- * A moving mesh of this many triangles or more keeps its tree, with new boxes, while that costs at most REFIT_COST
- * times the tree that was built. Below, building is as quick.
+ * A moving mesh with at least this many triangles keeps its tree, with refitted boxes, while that costs at most
+ * REFIT_COST times the tree as built. Smaller trees are rebuilt just as fast.
  */
 #define REFIT_TRIANGLES 256
 #define REFIT_COST 1.25
-/* An unused BLAS stays for so many frames, and longer while such ones are at most this share: closing a gap moves all
- * that follows. */
+/* An unused BLAS is kept for KEEP_FRAMES frames, and longer while unused BLASes are at most this share of all: closing
+ * a gap moves everything after it. */
 #define KEEP_FRAMES 16
-#define KEEP_SMALL_FRAMES 2 /* of fewer than SHARE_TRIANGLES, which are soon made again */
+#define KEEP_SMALL_FRAMES 2 /* for BLASes with fewer than SHARE_TRIANGLES, which are quick to rebuild */
 #define UNUSED_SHARE 0.5
 
-/* Each worker makes smaller BLASes for itself: that is as quick as waiting. */
+/* BLASes with fewer triangles are not shared: each worker builds its own as fast as it would wait. */
 #define SHARE_TRIANGLES 256
 
-/* A BLAS in the pools. Entries are in the order of the pools. */
+/* A BLAS in the pools. Entries have the same order as the pools. */
 struct placed_blas {
 	uint64_t hash[2];
 	enum accel_kind kind;
 	int baked; /* for this frame only */
 	uint64_t last_use;
-	uint64_t fitted; /* last frame in which another mesh took over its tree */
+	uint64_t fitted; /* last frame when another mesh took over its tree */
 	size_t first[N_BLAS_PARTS];
 	struct blas blas; /* without its parts, which are in the pools */
 };
@@ -40,8 +40,9 @@ struct placed_blas {
 struct accel_cache {
 	struct placed_blas *entries;
 	size_t n, capacity;
-	size_t capacities[N_BLAS_PARTS]; /* of the pools */
-	uint32_t *table; /* open addressing over entries, SCENE_NONE: free; a power of two */
+	size_t capacities[N_BLAS_PARTS]; /* capacity of each pool, in items */
+	uint32_t *table; /* hash table with open addressing: indices of entries, SCENE_NONE if free; its size is a power
+	                  * of two */
 	size_t table_size;
 	uint64_t frame;
 };
@@ -162,7 +163,7 @@ static struct placed_blas *find_blas(const struct accel_cache *cache, const uint
 	}
 }
 
-/* Move a BLAS down to the ends of those kept so far, which then end behind it. */
+/* Move a BLAS down to directly after those kept so far, and advance `ends` past it. */
 static void move_down(struct accel *accel, struct placed_blas *placed, size_t ends[N_BLAS_PARTS])
 {
 	for (int part = 0; part < N_BLAS_PARTS; part++) {
@@ -183,7 +184,7 @@ static int is_unused(const struct accel_cache *cache, const struct placed_blas *
 	return b->last_use + (b->blas.n[BLAS_TRIANGLES] < SHARE_TRIANGLES ? KEEP_SMALL_FRAMES : KEEP_FRAMES) < cache->frame;
 }
 
-/* Are BLASes that were not used for a while more than their share? n_baked: receives how many were baked for the last
+/* Do BLASes that have gone unused for a while exceed their share? n_baked receives the number baked for the last
  * frame */
 static int much_is_unused(const struct accel *accel, size_t *n_baked)
 {
@@ -199,8 +200,8 @@ static int much_is_unused(const struct accel *accel, size_t *n_baked)
 	return (double)unused > UNUSED_SHARE * (double)accel->n_triangles;
 }
 
-/* Remove BLASes that were not used for a while, if they are many, and those baked for the last frame; close the
- * gaps. */
+/* Remove the BLASes baked for the last frame and, if they exceed their share, those that have gone unused for a while.
+ * Close the gaps. */
 static int drop_unused(struct accel *accel)
 {
 	struct accel_cache *cache = accel->cache;
@@ -255,8 +256,8 @@ static int append(struct accel *accel, const struct blas *blas, struct placed_bl
 	return err;
 }
 
-/* The same for two meshes of the same triangles with other vertices; 0 0: the tree is not to be fitted to other
- * vertices. */
+/* Compute a hash that is equal for meshes with the same triangles but other vertices. 0 0: the tree must not be
+ * refitted. */
 static void find_topology(const struct scene_mesh *mesh, const struct soup *soup, uint64_t out[2])
 {
 	out[0] = out[1] = 0;
@@ -265,8 +266,9 @@ static void find_topology(const struct scene_mesh *mesh, const struct soup *soup
 }
 
 /*
- * The BLAS whose tree fits a new mesh: one of the same triangles, not used in this frame, most recently used before. Of
- * several, each mesh finds its own, in the order in which they were first drawn. NULL: there is none.
+ * Find a BLAS whose tree can be refitted to a new mesh: it has the same triangles and is not used in this frame; the
+ * most recently used one is taken. If there are several, meshes get them in the order they were first drawn. NULL:
+ * there is none.
  */
 static struct placed_blas *find_moved(struct accel_cache *cache, enum accel_kind kind, const uint64_t topology[2])
 {
@@ -286,7 +288,7 @@ static struct placed_blas *find_moved(struct accel_cache *cache, enum accel_kind
 	return best;
 }
 
-/* The tree of a mesh that has moved. *out stays empty where building is better. */
+/* Refit the tree of a moved mesh. *out stays empty if building is better. */
 static int refit(const struct accel *accel, const struct placed_blas *moved, const struct soup *soup, struct tree *out)
 {
 	const struct triangle *triangles = accel->triangles + moved->first[BLAS_TRIANGLES];
@@ -298,13 +300,13 @@ static int refit(const struct accel *accel, const struct placed_blas *moved, con
 	if (!old.order)
 		return err_report(ERR_SYSTEM, NULL, "acceleration structures: out of memory");
 	for (uint32_t i = 0; i < old.n_order; i++)
-		old.order[i] = triangles[i].primitive; /* none was left out */
+		old.order[i] = triangles[i].primitive; /* no triangle was left out */
 	err = tree_refit(&old, soup, REFIT_COST * moved->blas.built_cost, out);
 	free(old.order);
 	return err;
 }
 
-/* A BLAS to be made. */
+/* A BLAS to build. */
 struct order {
 	const struct scene_mesh *mesh;
 	const float (*positions)[4];
@@ -313,9 +315,9 @@ struct order {
 };
 
 /*
- * A tree for a soup: fitted, found or built. Moving meshes get a binned tree, which is quick to build and not kept on
- * disk.
- * @param own  receives 1 where the tree depends on what this accel saw before
+ * Get a tree for a soup: refit, load or build one. Moving meshes get a binned tree, which is quick to build and is not
+ * stored on disk.
+ * @param own  receives 1 if the tree depends on earlier frames of this accel
  */
 static int find_tree(struct accel *accel, const struct soup *soup, const struct order *order, struct blas *blas,
                      struct tree *out, int *own)
@@ -339,7 +341,7 @@ static int find_tree(struct accel *accel, const struct soup *soup, const struct 
 	return err;
 }
 
-/* @param own  as for find_tree. @param out  free it, also after an error */
+/* @param own as in find_tree. @param out free with blas_free, also after an error */
 static int make_blas(struct accel *accel, const struct order *order, struct blas *out, int *own)
 {
 	struct soup soup;
@@ -357,7 +359,7 @@ static int make_blas(struct accel *accel, const struct order *order, struct blas
 	return err;
 }
 
-/* Put a BLAS into the pools: one that all workers share, or one of our own. */
+/* Put a BLAS into the pools: one that workers share, or one built here. */
 static int place_blas(struct accel *accel, const struct order *order, struct placed_blas *placed)
 {
 	struct blas_cache *cache = order->of_frame || order->mesh->primitive_count < SHARE_TRIANGLES ? NULL : accel->shared;
@@ -405,7 +407,7 @@ static int add_blas(struct accel *accel, const struct order *order, struct place
 	return 0;
 }
 
-/* Does its mesh live for one frame only? */
+/* Does the instance's mesh live for one frame only? */
 static int is_of_frame(const struct instance *instance)
 {
 	return (instance->flags & (INSTANCE_BAKED | INSTANCE_SCREEN)) != 0;
@@ -416,7 +418,8 @@ static enum accel_kind accel_kind_of(const struct accel *accel, const struct ins
 	return is_of_frame(instance) ? ACCEL_BVH : accel->kind;
 }
 
-/* Find or add an instance's BLAS. Its places go into the instance, its box, in BLAS space, into *box. */
+/* Find or add an instance's BLAS. Set the instance's offsets into the pools, and *box to the BLAS's box in BLAS
+ * space. */
 static int place_instance(struct accel *accel, const struct scene_mesh *mesh, const float (*eye_vertices)[4],
                           struct instance *instance, struct bvh_box *box)
 {

@@ -15,7 +15,7 @@ const size_t blas_item_bytes[N_BLAS_PARTS] = {
 	[BLAS_NODES8C] = sizeof(struct node8c), [BLAS_TRIANGLES8C] = sizeof(struct triangle),
 };
 
-/* Room for n items of a part, none of them set. @return NULL: there is none (reported) */
+/* Allocate n items of a part, uninitialized. @return NULL: out of memory (reported) */
 static void *make_part(struct blas *blas, enum blas_part part, size_t n)
 {
 	blas->n[part] = n;
@@ -25,7 +25,7 @@ static void *make_part(struct blas *blas, enum blas_part part, size_t n)
 	return blas->parts[part];
 }
 
-/* Give back the room of a part beyond its n items. */
+/* Shrink the allocation of a part to its n items. */
 static void cut_part(struct blas *blas, enum blas_part part, size_t n)
 {
 	void *less = realloc(blas->parts[part], n * blas_item_bytes[part] + 1);

@@ -1,13 +1,13 @@
 /*
- * A BLAS (bottom level acceleration structure): the trees over one mesh in every form that kernels walk. Its parts go
- * into the pools of struct accel.
+ * A BLAS (bottom level acceleration structure): the trees over one mesh in every form that kernels traverse. Its parts
+ * are copied into the pools of struct accel.
  */
 #pragma once
 
 #include "kernels/shared.h"
 #include "tracer/accel/tree.h"
 
-/* Eight-wide trees beside the binary ones. */
+/* Eight-wide trees to build besides the binary one. */
 #define ACCEL_ROWS 1u       /* nodes8, triangles8, faces8 */
 #define ACCEL_COMPRESSED 2u /* nodes8c, triangles8c */
 
@@ -27,18 +27,18 @@ extern const size_t blas_item_bytes[N_BLAS_PARTS];
 
 /* Indices in nodes are relative to the first item of the part they point into. */
 struct blas {
-	void *parts[N_BLAS_PARTS]; /* NULL where there is nothing */
+	void *parts[N_BLAS_PARTS]; /* NULL if the part is empty */
 	size_t n[N_BLAS_PARTS];
-	struct bvh_box box;   /* around everything; empty where there is nothing to hit */
-	uint64_t topology[2]; /* hash of the mesh's indices, where the tree may be fitted to other vertices; else 0 0 */
-	double built_cost;    /* bvh_cost of the tree as it was built; with a topology only */
+	struct bvh_box box;   /* bounds of everything; empty if there is nothing to hit */
+	uint64_t topology[2]; /* hash of the mesh's indices if the tree may be refitted to other vertices; else 0 0 */
+	double built_cost;    /* bvh_cost of the tree when it was built; set only with a topology */
 };
 
 /**
  * Make the parts from a binary tree.
  *
- * @param wide  which of ACCEL_ROWS and ACCEL_COMPRESSED to make
- * @param out   receives parts, n and box; free with blas_free, also after an error; its other fields stay
+ * @param wide  which of ACCEL_ROWS and ACCEL_COMPRESSED to build
+ * @param out   receives parts, n and box; other fields are unchanged; free with blas_free, also after an error
  * @return 0 or ERR_SYSTEM (reported)
  */
 int blas_make(const struct soup *soup, const struct tree *tree, unsigned wide, struct blas *out);

@@ -6,20 +6,20 @@
 
 #include "base/err.h"
 
-#define SLOTS 4096u /* of the hash table; tens of thousands of meshes make about a dozen entries each */
+#define SLOTS 4096u /* slots of the hash table; tens of thousands of meshes give about a dozen entries each */
 
 struct entry {
-	struct blas blas; /* the first member: entries are found by it */
+	struct blas blas; /* must be the first member: a pointer to it is cast to its entry */
 	struct blas_key key;
 	size_t bytes;
-	unsigned users;  /* how many copy from it */
-	int made;        /* 0: someone is making it */
+	unsigned users;  /* number of threads copying from it */
+	int made;        /* 0: another thread is building it */
 	struct entry *next;             /* in the same slot */
-	struct entry *older, *younger;  /* made ones, by last use */
+	struct entry *older, *younger;  /* list of built entries by last use */
 };
 
 struct blas_cache {
-	pthread_mutex_t lock; /* of all below */
+	pthread_mutex_t lock; /* guards all members below */
 	pthread_cond_t changed;
 	struct entry *slots[SLOTS];
 	struct entry *oldest, *youngest;

@@ -20,20 +20,20 @@
 #include "tracer/accel/tree.h"
 
 #define SUFFIX ".tree"
-/* Count the folder again after writing this share of its bound; then leave it this full. */
+/* Recount the folder after writing 1 / COUNT_SHARE of its limit */
 #define COUNT_SHARE 16
 #define FULL_SHARE(most) ((most) / 4 * 3)
 
-/* A file's content: this, nodes, order. */
+/* Header of a file; nodes and order follow it. */
 struct counts {
 	uint32_t n_nodes, n_order;
 };
 
 struct blas_store {
 	char folder[PATH_MAX - 96];
-	uint64_t most, added; /* added: bytes since the folder was counted last */
+	uint64_t most, added; /* added: bytes written since the folder was last counted */
 	int counted, lost;    /* lost: the folder cannot be written */
-	pthread_mutex_t lock; /* of writing, and of the fields above */
+	pthread_mutex_t lock; /* guards writing and the members above */
 };
 
 int blas_store_open(const char *folder, uint64_t most, struct blas_store **out)
@@ -73,7 +73,7 @@ static size_t bytes_of(struct counts n)
 	return sizeof(n) + n.n_nodes * sizeof(struct node2) + n.n_order * sizeof(uint32_t);
 }
 
-/* Hash everything the content depends on: nodes of another layout or byte order differ. */
+/* Hash everything that the content depends on, including the layout and byte order of nodes. */
 static void hash_key(const struct blas_store_key *key, uint64_t out[2])
 {
 	const uint64_t all[] = { key->hash[0], key->hash[1], key->version, key->kind, key->n_triangles, sizeof(struct node2) };
@@ -83,7 +83,7 @@ static void hash_key(const struct blas_store_key *key, uint64_t out[2])
 
 /* --- Reading ----------------------------------------------------------------------------------------------------- */
 
-/* Make a tree of a file's content. @return 0: it is none */
+/* Read a tree from a file's content. @return 0: not a valid tree */
 static int unpack(const char *bytes, size_t n, uint32_t n_triangles, struct tree *out)
 {
 	struct counts counts;
@@ -119,7 +119,7 @@ int blas_store_load(struct blas_store *store, const struct blas_store_key *key, 
 	found = unpack(bytes, n, key->n_triangles, out);
 	free(bytes);
 	if (found)
-		/* the time of last use; where we may not set it, we may not remove files either */
+		/* record the time of last use; without permission to set it, we cannot remove files either */
 		utimensat(AT_FDCWD, path, NULL, 0);
 	else
 		tree_free(out);
@@ -128,7 +128,7 @@ int blas_store_load(struct blas_store *store, const struct blas_store_key *key, 
 
 /* --- Keeping the bound ------------------------------------------------------------------------------------------- */
 
-/* Count the folder; where it exceeds its bound, trees unused for longest go. */
+/* Count the folder. If it exceeds its limit, remove the least recently used trees. */
 static void keep_bound(struct blas_store *store)
 {
 	if (!folder_keep_bound(store->folder, "?*" SUFFIX, store->most, FULL_SHARE(store->most)))
@@ -139,7 +139,7 @@ static void keep_bound(struct blas_store *store)
 
 /* --- Writing ----------------------------------------------------------------------------------------------------- */
 
-/* @return 0; an errno that says why it failed; -1 (reported) */
+/* @return 0, the errno of a failed write, or -1 (reported) */
 static int save(struct blas_store *store, const char *path, const struct blas_store_key *key, const struct tree *tree)
 {
 	const struct counts counts = { tree->n_nodes, tree->n_order };
@@ -170,7 +170,7 @@ void blas_store_save(struct blas_store *store, const struct blas_store_key *key,
 	int failed;
 
 	if (bytes > store->most / 4)
-		return; /* too many others would have to go */
+		return; /* would displace too many others */
 	path_of(store, key, path);
 	pthread_mutex_lock(&store->lock);
 	if (!store->lost) {

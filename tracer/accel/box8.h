@@ -1,7 +1,7 @@
 /*
- * Boxes for the builders, in vectors: -lo and hi side by side, so that one kind of comparison grows a box. Each half
- * has a fourth lane that goes along. The compiler's own operators do arithmetic and comparisons on vector types. This
- * file has the rest, for whatever the including file is compiled for: AVX, SSE2, or neither.
+ * Boxes for the builders, as vectors. They store -lo and hi side by side, so that growing a box takes only maxima. The
+ * fourth lane of each half is carried along. Arithmetic and comparisons use the compiler's vector operators. The rest
+ * is here, for the instruction set that the including file is compiled for: AVX, SSE2, or neither.
  */
 #pragma once
 
@@ -17,7 +17,7 @@ typedef int32_t ivec4 __attribute__((vector_size(16)));
 
 #define VEC4(x) ((vec4){ x, x, x, x })
 
-/** Lane by lane a < b ? a : b: where either is a NaN it is b. */
+/** a < b ? a : b in each lane; b if either is a NaN. */
 static inline vec4 vec4_min(vec4 a, vec4 b)
 {
 #ifdef __SSE2__
@@ -29,7 +29,7 @@ static inline vec4 vec4_min(vec4 a, vec4 b)
 #endif
 }
 
-/** Lane by lane a > b ? a : b: where either is a NaN it is b. */
+/** a > b ? a : b in each lane; b if either is a NaN. */
 static inline vec4 vec4_max(vec4 a, vec4 b)
 {
 #ifdef __SSE2__
@@ -41,7 +41,7 @@ static inline vec4 vec4_max(vec4 a, vec4 b)
 #endif
 }
 
-/** 1 where the comparison holds in lane 0. */
+/** 1 if the comparison holds in lane 0. */
 static inline uint32_t vec4_first(ivec4 m)
 {
 #ifdef __SSE2__
@@ -69,7 +69,7 @@ static inline vec4 box8_hi(box8 b)
 	return _mm256_extractf128_ps(b, 1);
 }
 
-/** The box around both; where a is a NaN it is b. */
+/** The box around both; b in lanes where a is a NaN. */
 static inline box8 box8_join(box8 a, box8 b)
 {
 	return _mm256_max_ps(a, b);
@@ -100,7 +100,7 @@ static inline box8 box8_join(box8 a, box8 b)
 }
 #endif
 
-/** Holds nothing. */
+/** The empty box. */
 static inline box8 box8_empty(void)
 {
 	return box8_make(VEC4(-BVH_EMPTY_LO), VEC4(BVH_EMPTY_HI));

@@ -49,7 +49,7 @@ double bvh_cost(const struct node2 *nodes, uint32_t n_nodes)
 	return root > 0 ? BVH_COST_NODE + sum / root : BVH_COST_NODE;
 }
 
-/* The box of one side. The boxes of its child are right already. */
+/* Compute the box of one side. The boxes of its child are already up to date. */
 static struct bvh_box fit_side(const struct node2 *nodes, const struct node2 *node, int side,
                                const struct bvh_box *boxes, const uint32_t *order)
 {
@@ -109,7 +109,7 @@ static int branch_is_empty(struct branch b)
 	return !b.node->count[b.side] && !b.node->child[b.side];
 }
 
-/* Up to eight branches below a binary node: open the largest until there are eight, or only leaves. */
+/* Collect up to eight branches below a binary node: open the largest until there are eight, or only leaves are left. */
 static int open_branches(const struct collapse *c, const struct node2 *node, struct branch out[8])
 {
 	int n = 0;
@@ -138,7 +138,8 @@ static int open_branches(const struct collapse *c, const struct node2 *node, str
 	return n;
 }
 
-/* Fill wide node `to` with what lies below binary node `from`. Recursion is as deep as the tree: BVH_MAX_DEPTH. */
+/* Fill wide node `to` with the branches below binary node `from`. Recursion is at most BVH_MAX_DEPTH deep, like the
+ * tree. */
 static void collapse_node(struct collapse *c, uint32_t from, uint32_t to)
 {
 	struct branch branches[8];

@@ -8,18 +8,18 @@
 #include "kernels/rays/compressed.h"
 #include "tracer/accel/bvh.h"
 
-/* The least exponent of a normal float. Boxes are bounded (soup.h): a grid for them always exists. */
+/* The smallest exponent of a normal float. Boxes are bounded (soup.h), so a grid for them always exists. */
 #define LEAST_EXPONENT 1u
 
-/* One lane of a node in rows. */
+/* Is this lane of a node8 in use? */
 static int lane_is_used(const struct node8 *node, int lane)
 {
 	return node->lo[0][lane] <= node->hi[0][lane];
 }
 
 /*
- * Which slot each lane goes to. Repeatedly take, of all lanes and slots left, the pair that fits best: the lane's
- * middle lies farthest along the slot's diagonal. -1: the lane is empty.
+ * Choose a slot for each lane. Repeatedly take the best pair of all remaining lanes and slots: the one where the lane's
+ * centre lies farthest along the slot's diagonal. -1: the lane is empty.
  */
 static void choose_slots(const struct node8 *node, int slot_of[8])
 {
@@ -74,7 +74,7 @@ static int quantise(float origin, float step, float lo, float hi, uint32_t *byte
 		return 0;
 	*byte_lo = from > 0 ? (uint32_t)from : 0;
 	*byte_hi = to > 0 ? (uint32_t)to : 0;
-	/* Correct for rounding: kernels compute planes by node8c_plane. */
+	/* Correct for rounding: kernels compute planes with node8c_plane. */
 	while (*byte_lo && node8c_plane(origin, step, *byte_lo) > lo)
 		--*byte_lo;
 	while (*byte_hi < 256 && node8c_plane(origin, step, *byte_hi) < hi)
@@ -87,7 +87,7 @@ static void set_byte(uint32_t words[2], int slot, uint32_t byte)
 	words[slot >> 2] = (words[slot >> 2] & ~(255u << 8 * (slot & 3))) | byte << 8 * (slot & 3);
 }
 
-/* Put boxes on a grid along one axis. @return 0: its steps are too small */
+/* Quantise boxes to a grid along one axis. @return 0: its steps are too small */
 static int quantise_lanes(const struct node8 *in, int axis, const int slot_of[8], uint32_t exponent, struct node8c *out)
 {
 	for (int lane = 0; lane < 8; lane++) {
@@ -103,7 +103,7 @@ static int quantise_lanes(const struct node8 *in, int axis, const int slot_of[8]
 	return 1;
 }
 
-/* Put boxes on the finest grid that holds all. */
+/* Quantise boxes to the finest grid that contains them all. */
 static void quantise_axis(const struct node8 *in, int axis, const int slot_of[8], struct node8c *out)
 {
 	float lo = BVH_EMPTY_LO, hi = BVH_EMPTY_HI;
@@ -125,8 +125,9 @@ static void quantise_axis(const struct node8 *in, int axis, const int slot_of[8]
 /* --- Which nodes become one -------------------------------------------------------------------------------------- */
 
 /*
- * What a subtree costs as at most n children of one node, and how (Ylitie, Karras and Laine 2017, section 3.1): left[n]
- * of them go to its left side; 0: n - 1 children are as good. left[1] is for the eight children of a node of its own.
+ * Lowest cost of a subtree as at most n children of one node, and how to reach it (Ylitie, Karras and Laine 2017,
+ * section 3.1). left[n] of the children go to the left side; 0: n - 1 children cost the same. left[1] is for the eight
+ * children of a separate node.
  */
 struct plan {
 	float cost[8]; /* [1..7] */
@@ -147,7 +148,7 @@ static float side_cost(const struct node2 *node, int side, const struct plan *pl
 	return node->count[side] ? side_area(node, side) * (float)node->count[side] : plans[node->child[side]].cost[n];
 }
 
-/* The best way to share n children between the sides of a node. @return the cost */
+/* Find the best way to share n children between the sides of a node. @return its cost */
 static float share(const struct node2 *node, const struct plan *plans, uint32_t n, uint8_t *left)
 {
 	float best = INFINITY;
@@ -163,7 +164,7 @@ static float share(const struct node2 *node, const struct plan *plans, uint32_t 
 	return best;
 }
 
-/* area: of the node's box. */
+/* area: half area of the node's box. */
 static void plan_node(const struct node2 *node, const struct plan *plans, float area, struct plan *out)
 {
 	out->cost[1] = share(node, plans, 8, &out->left[1]) + BVH_COST_NODE * area;
@@ -178,7 +179,7 @@ static void plan_node(const struct node2 *node, const struct plan *plans, float 
 
 /* --- Nodes ------------------------------------------------------------------------------------------------------- */
 
-/* What a node is made from: a binary node, or items in a box that are too many for a leaf. */
+/* Source of a compressed node: a binary node, or a box with too many items for a leaf. */
 struct source {
 	uint32_t first, count; /* count 0: a binary node */
 	float lo[3], hi[3];
@@ -188,14 +189,14 @@ struct source {
 struct compression {
 	const struct node2 *nodes2;
 	const struct plan *plans;         /* [nodes2] */
-	const struct triangle *triangles; /* in the leaf order of the binary tree */
+	const struct triangle *triangles; /* in leaf order of the binary tree */
 	struct node8c *nodes;
 	struct triangle *out;
 	struct source *from; /* [nodes] */
 	uint32_t n_nodes, n_out;
 };
 
-/* Append one side of a binary node, as at most n children, to the lanes of a node in rows. */
+/* Append one side of a binary node, as at most n children, to the lanes of a node8. */
 static void add_lanes(const struct compression *c, const struct node2 *node, int side, uint32_t n, struct node8 *out,
                       uint32_t *lane)
 {
@@ -218,7 +219,7 @@ static void add_lanes(const struct compression *c, const struct node2 *node, int
 	out->count[(*lane)++] = node->count[side];
 }
 
-/* A binary node, with nodes below it opened, as a node in rows. */
+/* Collapse a binary node and the nodes opened below it into a node8. */
 static struct node8 collapse(const struct compression *c, uint32_t index)
 {
 	const uint32_t left = c->plans[index].left[1];
@@ -236,7 +237,7 @@ static struct node8 collapse(const struct compression *c, uint32_t index)
 	return node;
 }
 
-/* Many items as a node in rows: eight leaves, or as many as it takes, all in the same box. */
+/* Make a node8 of many items: eight leaves, or as many as needed, all with the same box. */
 static struct node8 split_items(const struct source *items)
 {
 	const uint32_t n = items->count < 8 * NODE8C_LEAF_MAX ? (items->count + NODE8C_LEAF_MAX - 1) / NODE8C_LEAF_MAX : 8;
@@ -256,7 +257,7 @@ static struct node8 split_items(const struct source *items)
 	return node;
 }
 
-/* A lane that becomes a node of its own. */
+/* Queue a lane that becomes a separate node. */
 static void add_node(struct compression *c, const struct node8 *in, int lane)
 {
 	struct source *source = &c->from[c->n_nodes++];

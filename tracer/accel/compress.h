@@ -1,17 +1,17 @@
 /*
- * Eight-wide nodes of 80 bytes out of binary ones (kernels/shared.h: struct node8c), for GPUs.
+ * Compression of binary trees to eight-wide nodes of 80 bytes (kernels/shared.h: struct node8c), for GPUs.
  */
 #pragma once
 
 #include "kernels/shared.h"
 
-/* How many nodes a tree may need, and how many items a leaf of it may hold. */
+/* Most nodes that a tree may need, and most items in a leaf of the binary tree. */
 #define BVH_COMPRESSED_NODES(n_nodes2, n_items) ((size_t)(n_nodes2) + (n_items) / NODE8C_LEAF_MAX)
 #define BVH_COMPRESSED_LEAF (NODE8C_LEAF_MAX << 3 * (NODE8C_MAX_DEPTH - BVH_MAX_DEPTH))
 
 /**
- * Collapse a binary tree into the compressed nodes that cost least by the measure of bvh_cost. A leaf of more than
- * NODE8C_LEAF_MAX items becomes nodes.
+ * Collapse a binary tree into the compressed nodes with the lowest bvh_cost. A leaf with more than NODE8C_LEAF_MAX
+ * items is split into nodes.
  *
  * @param nodes2     as bvh.h describes them, with leaves of at most BVH_COMPRESSED_LEAF items
  * @param triangles  [n_items], in leaf order

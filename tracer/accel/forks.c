@@ -72,7 +72,7 @@ void forks_run(struct forks *forks, unsigned threads, forks_do *run, void *arg)
 	pthread_t others[MAX_THREADS];
 	unsigned started = 0;
 
-	if (threads == 0) { /* a file is read for that: not for each small mesh */
+	if (threads == 0) { /* counting processors reads a file: avoid it for small meshes */
 		const long processors = sysconf(_SC_NPROCESSORS_ONLN);
 
 		threads = processors < 1 ? 1 : (unsigned)processors;

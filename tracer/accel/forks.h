@@ -1,5 +1,5 @@
 /*
- * Tasks that add more tasks, done by several threads: subtrees of a tree under construction.
+ * A pool of threads whose tasks may add more tasks: subtrees of a tree under construction.
  */
 #pragma once
 
@@ -12,7 +12,7 @@ typedef void forks_do(void *arg, const void *task);
 struct forks {
 	pthread_mutex_t lock;
 	pthread_cond_t changed;
-	char *tasks; /* a ring of waiting ones, oldest first: the largest come first */
+	char *tasks; /* ring of waiting tasks, oldest first, so the largest subtrees come first */
 	size_t task_bytes, room, first, waiting;
 	unsigned busy;
 	forks_do *run;
@@ -21,7 +21,7 @@ struct forks {
 
 /**
  * @param task_bytes  size of a task's description, which is copied
- * @param room        most tasks that ever wait
+ * @param room        most tasks that wait at any time
  * @return 0 or ERR_SYSTEM (reported)
  */
 int forks_init(struct forks *forks, size_t task_bytes, size_t room);
@@ -31,8 +31,8 @@ void forks_free(struct forks *forks);
 void forks_add(struct forks *forks, const void *task);
 
 /**
- * Do all tasks and those that they add; return when there are none.
- * @param threads  at most so many, the caller's own included; 0: as many as there are processors. Where a thread does
- *                 not start, the others do its work
+ * Run all tasks and those that they add. Return when none is left.
+ * @param threads  most threads to use, including the caller's own; 0: one per processor. If a thread cannot be started,
+ *                 the others do its work
  */
 void forks_run(struct forks *forks, unsigned threads, forks_do *run, void *arg);

@@ -1,17 +1,18 @@
 /*
- * Planes of a kd-tree (MacDonald and Booth 1990, "Heuristics for ray tracing using space subdivision"): cut a cell
- * where that is cheapest by the areas of both halves and the number of triangles in each. Triangles that the plane cuts
- * go to both, each with the box of its own piece ("perfect splits", Wald and Havran 2006, "On building fast kd-trees
- * for ray tracing, and on doing that in O(N log N)", sec. 2.2). Cells shrink to what they hold. Many triangles are
- * binned by where they begin and end (Shevtsov, Soupikov and Kapustin 2007, "Highly parallel fast KD-tree construction
- * for interactive ray tracing of dynamic scenes"); few give the planes themselves. For sah_build.inc.
+ * Planes of a kd-tree (MacDonald and Booth 1990, "Heuristics for ray tracing using space subdivision"): a cell is cut
+ * by the plane with the lowest cost, given the areas of both halves and the number of triangles in each. Triangles that
+ * straddle the plane go to both halves, in each with the bounds of their piece ("perfect splits", Wald and Havran 2006,
+ * "On building fast kd-trees for ray tracing, and on doing that in O(N log N)", sec. 2.2). Cells shrink to their
+ * contents. Large sets of triangles are binned by their two ends (Shevtsov, Soupikov and Kapustin 2007, "Highly
+ * parallel fast KD-tree construction for interactive ray tracing of dynamic scenes"); for small sets, every end is a
+ * candidate plane. Used by sah_build.inc.
  */
 #pragma once
 
 #include "tracer/accel/sbvh_split.h"
 
 #define KD_BINS 32
-#define KD_FEW 16 /* up to so many triangles all their ends are tried */
+#define KD_FEW 16 /* most triangles for which every end is tried */
 
 /* Areas of a cell's halves as a plane moves across an axis: end + along * share of the width. */
 struct kd_areas {
@@ -31,7 +32,7 @@ static inline float kd_cost(struct kd_areas areas, float share, uint32_t n_left,
 	return (areas.end + areas.along * share) * (float)n_left + (areas.end + areas.along * (1 - share)) * (float)n_right;
 }
 
-/* The cheapest of the planes between bins of one axis, if cheaper than *best. */
+/* Find the cheapest plane between bins of one axis; keep it if cheaper than *best. */
 static inline void kd_try_bins(const box8 *refs, uint32_t n, box8 cell, int axis, struct plane *best)
 {
 	const float lo = -box8_negative_lo(cell)[axis], width = box8_size(cell)[axis], scale = KD_BINS / width;
@@ -58,7 +59,7 @@ static inline void kd_try_bins(const box8 *refs, uint32_t n, box8 cell, int axis
 	}
 }
 
-/* The same of the planes at both ends of each triangle. */
+/* The same for the planes at both ends of each triangle. */
 static inline void kd_try_ends(const box8 *refs, uint32_t n, box8 cell, int axis, struct plane *best)
 {
 	const float lo = -box8_negative_lo(cell)[axis], width = box8_size(cell)[axis];
@@ -76,7 +77,7 @@ static inline void kd_try_ends(const box8 *refs, uint32_t n, box8 cell, int axis
 		uint32_t n_left = 0, n_right = 0;
 		float cost;
 
-		for (uint32_t i = 0; i < n; i++) { /* as partition_space has it */
+		for (uint32_t i = 0; i < n; i++) { /* same rule as partition_space */
 			n_left += ends[2 * i] < at || ends[2 * i + 1] <= at;
 			n_right += ends[2 * i + 1] > at;
 		}
@@ -98,7 +99,7 @@ static inline struct plane find_kd_plane(const box8 *refs, uint32_t n, box8 cell
 	return best;
 }
 
-/* How many references a plane cuts. */
+/* Count the references that a plane cuts. */
 static inline uint32_t kd_count_cut(const box8 *refs, uint32_t n, const struct plane *plane)
 {
 	uint32_t cut = 0;

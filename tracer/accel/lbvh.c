@@ -1,9 +1,9 @@
 /*
- * Linear bounding volume hierarchies (Lauterbach et al. 2009, "Fast BVH construction on GPUs"): items along a Morton
- * curve, divided wherever the highest bit changes.
+ * Linear bounding volume hierarchies (Lauterbach et al. 2009, "Fast BVH construction on GPUs"): items are sorted along
+ * a Morton curve and divided at the highest bit that changes.
  *
- * One thread lays out the levels down to parts of GRAIN items. Then threads take parts, and fill a range of nodes for
- * each. The sorted codes alone decide what is in which node.
+ * One thread lays out the top levels, down to parts of GRAIN items. Then threads take parts and fill a range of nodes
+ * for each. The contents of every node depend only on the sorted codes.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -15,26 +15,26 @@
 #include "tracer/accel/bvh.h"
 #include "tracer/accel/forks.h"
 
-#define AXIS_BITS 14 /* of a code, per axis: four passes of sorting in all */
+#define AXIS_BITS 14 /* bits of a code per axis; sorting takes four passes */
 #define DIGIT_BITS 11
 #define DIGITS (1u << DIGIT_BITS)
 #define PASSES 4
 #define GRAIN 4096u
-#define SORT_ALONE 65536u /* one thread sorts fewer: several would wait for one another after each pass */
+#define SORT_ALONE 65536u /* fewer items are sorted by one thread: several would wait for each other after each pass */
 #define IS_PART 0xffffffffu
 
-/* An item, by its centre's place on the curve. */
+/* An item and the position of its centre on the curve. */
 struct place {
 	uint64_t code; /* 3 * AXIS_BITS bits */
 	uint32_t item;
 };
 
-/* A subtree that one thread fills: items first .. first + count - 1, nodes from `first` on, `used` of them in the
- * end. */
+/* A subtree that one thread fills: items first .. first + count - 1, and nodes from `first` on, of which `used` are
+ * filled. */
 struct part {
 	uint32_t first, count, depth;
-	uint32_t used, place; /* place: where its nodes go in the end */
-	uint32_t child, n_items; /* child and count for its parent, nodes numbered as they lie */
+	uint32_t used, place; /* place: final position of its nodes */
+	uint32_t child, n_items; /* child and count for its parent, with nodes numbered by current position */
 	box8 box;
 };
 
@@ -42,12 +42,12 @@ struct build {
 	const struct bvh_box *boxes;
 	uint32_t n, leaf_max;
 	struct place *from, *to; /* for sorting; they swap after each pass */
-	uint32_t *counts;        /* [chunk][DIGITS]: how often a digit occurs, then where it goes */
+	uint32_t *counts;        /* [chunk][DIGITS]: number of items with a digit, then their position */
 	uint32_t chunk, n_chunks, shift;
 	struct bvh_box *bounds;  /* [chunk] around centres */
 	float lo[3], scale;
-	box8 *sorted;            /* [n] boxes in the items' order: nodes read one after the other */
-	struct node2 *nodes;     /* [n - 1] of the parts */
+	box8 *sorted;            /* [n] boxes in the order of sorted items, so nodes read them sequentially */
+	struct node2 *nodes;     /* [n - 1] nodes of the parts */
 	struct node2 *out;
 	struct part *parts;
 	uint32_t n_parts;
@@ -92,7 +92,7 @@ static void find_bounds(void *arg, const void *task)
 	b->bounds[chunk] = bounds;
 }
 
-/* Cells of the curve are cubes: an axis of little extent counts only where cells are small. */
+/* Cells of the curve are cubes: a short axis matters only at small cells. */
 static void set_scale(struct build *b)
 {
 	struct bvh_box all = b->bounds[0];
@@ -184,13 +184,13 @@ static void sort(struct build *b, struct forks *forks, unsigned threads)
 
 /* --- Nodes ------------------------------------------------------------------------------------------------------- */
 
-/* Where to divide items: behind the last one with a 0 in the highest bit of the code that changes. */
+/* Find the division of items: after the last one with a 0 in the highest bit of the code that changes. */
 static uint32_t find_split(const struct build *b, uint32_t first, uint32_t count, uint32_t depth)
 {
 	const uint64_t changes = b->from[first].code ^ b->from[first + count - 1].code;
 	uint32_t lo = first, hi = first + count - 1, log2 = 32 - (uint32_t)__builtin_clz(count - 1);
 
-	/* Halves by number where all codes are the same, or where little depth is left. */
+	/* Halve by count if all codes are equal or little depth is left. */
 	if (!changes || depth + log2 + 1 >= BVH_MAX_DEPTH)
 		return first + count / 2;
 	while (lo + 1 < hi) {
@@ -217,9 +217,9 @@ static void set_side(struct node2 *node, int side, box8 box, uint32_t child, uin
 }
 
 /*
- * Write the subtree over some items, from the part's next node on. A subtree of at most leaf_max items that costs more
- * than a leaf becomes one, unless it `must` be a node.
- * @return its cost, areas not divided; *child and *count_out are for its parent
+ * Write the subtree over a range of items, starting at the part's next node. A subtree of at most leaf_max items
+ * becomes a leaf if that is cheaper, unless it `must` be a node.
+ * @return its cost, with areas not divided by the root's; *child and *count_out receive the parent's values
  */
 static float emit(const struct build *b, struct part *part, uint32_t first, uint32_t count, uint32_t depth, int must,
                   box8 *box, uint32_t *child, uint32_t *count_out)
@@ -272,8 +272,8 @@ static void fill_part(void *arg, const void *task)
 	emit(b, part, part->first, part->count, part->depth, part->count == b->n, &part->box, &part->child, &part->n_items);
 }
 
-/* Write the levels above the parts into `nodes`, from 0 on. Sides that are parts hold the part's number for now, and
- * count IS_PART. */
+/* Write the levels above the parts to `nodes`, from 0 on. For now, a side that is a part has the part's number as child
+ * and the count IS_PART. */
 static void lay_out(struct build *b, struct node2 *nodes, uint32_t *used, uint32_t first, uint32_t count,
                     uint32_t depth, uint32_t *child, uint32_t *count_out)
 {
@@ -299,7 +299,7 @@ static void lay_out(struct build *b, struct node2 *nodes, uint32_t *used, uint32
 	}
 }
 
-/* Move a part's nodes to their place. */
+/* Move a part's nodes to their final position. */
 static void move_part(void *arg, const void *task)
 {
 	const struct build *b = arg;
@@ -337,8 +337,8 @@ static void close_top(const struct build *b, uint32_t n_top)
 		}
 }
 
-/* Build over sorted items. @return how many nodes: the levels above the parts, then all parts in the order of their
- * items */
+/* Build over sorted items. @return number of nodes: first the levels above the parts, then all parts in the order of
+ * their items */
 static uint32_t build_nodes(struct build *b, struct forks *forks, unsigned threads)
 {
 	uint32_t n_top = 0, child, count, n;

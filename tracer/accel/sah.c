@@ -1,4 +1,5 @@
-/* The builders by surface area for any processor, and the choice between their two compilations (sah_build.h). */
+/* The surface area heuristic builders compiled for any processor, and the choice between both compilations
+ * (sah_build.h). */
 #define SAH_BUILD sah_build_plain
 #include "tracer/accel/sah_build.inc"
 
@@ -26,8 +27,8 @@ int bvh_build_sah(const struct bvh_input *in, struct tree *out)
 }
 
 /*
- * Chance decides where the topmost planes fall, as there are few between bins, and with it about a tenth of a tree's
- * cost. The binned builder is quick enough to try which number of bins suits the mesh.
+ * The topmost planes are a matter of chance, as there are few candidates between bins, and they make a difference of
+ * about a tenth of a tree's cost. The binned builder is fast enough to try which number of bins suits the mesh.
  */
 static int choose_bins(const struct bvh_input *in, struct tree *scratch, uint32_t *best)
 {

@@ -1,7 +1,7 @@
 /*
- * Spatial splits (Stich, Friedrich and Dietrich 2009, "Spatial splits in bounding volume hierarchies"): where the sides
- * of the best division of a part still overlap, a plane cuts its space instead. Both sides then hold the triangles that
- * it cuts, each with the box of its own piece. For sah_build.inc.
+ * Spatial splits (Stich, Friedrich and Dietrich 2009, "Spatial splits in bounding volume hierarchies"): if the sides of
+ * the best division of a part still overlap, a plane cuts its space instead. Triangles that straddle the plane are in
+ * both sides, in each with the bounds of their piece. Used by sah_build.inc.
  */
 #pragma once
 
@@ -12,19 +12,19 @@
 #include "tracer/accel/sah_part.h"
 
 #define SPATIAL_BINS 16
-/* Sides that overlap by less of the root's area are left alone (Stich et al. sec. 4.5; 1e-5 costs a quarter more time
- * here). */
+/* Space is cut only if the sides overlap by at least this share of the root's area (Stich et al. sec. 4.5; 1e-5 takes a
+ * quarter more time here). */
 #define SPATIAL_OVERLAP 1e-4f
 
-/* Pieces of what crosses each bin; items that begin and end in it. */
+/* Bounds of the pieces inside a bin; how many items begin and end in it. */
 struct spatial_bin {
 	box8 box;
 	uint32_t enter, leave;
 };
 
-/* Where space is cut. */
+/* A plane that cuts space. */
 struct plane {
-	float cost; /* as struct split has it; FLT_MAX: none */
+	float cost; /* as in struct split; FLT_MAX: none */
 	int axis;
 	float at;
 };
@@ -34,7 +34,7 @@ static inline box8 box8_meet(box8 a, box8 b)
 	return box8_make(vec4_min(box8_negative_lo(a), box8_negative_lo(b)), vec4_min(box8_hi(a), box8_hi(b)));
 }
 
-/* A piece of a reference: its box, and the whole's item. */
+/* The reference of a piece: its own box, with the item of the whole. */
 static inline box8 piece_of(box8 piece, box8 whole)
 {
 	const ivec4 item = { 0, 0, 0, -1 }, lo = (ivec4)box8_negative_lo(box8_meet(piece, whole));
@@ -49,8 +49,8 @@ static inline vec4 set_lane(vec4 v, int axis, float x)
 }
 
 /*
- * The boxes of the two pieces of a triangle, within the box of the piece that is cut. They are a little larger than the
- * pieces, by what counts as a hit beside a triangle (soup.c widens boxes by as much).
+ * Compute the boxes of the two pieces of a triangle, within the box of the piece being cut. They are widened by the hit
+ * tolerance at a triangle's edges, as boxes are in soup.c.
  */
 static inline void cut_triangle(const struct triangle *t, box8 whole, int axis, float at, box8 *left, box8 *right)
 {
@@ -82,7 +82,7 @@ static inline void cut_triangle(const struct triangle *t, box8 whole, int axis, 
 	*right = piece_of(box8_make(box8_negative_lo(r) + pad, box8_hi(r) + pad), whole);
 }
 
-/* Is there anything of the piece? The fourth lanes do not count. */
+/* Is the box non-empty? Ignores the fourth lanes. */
 static inline int box8_is_box(box8 b)
 {
 	const vec4 size = box8_size(b);
@@ -97,7 +97,7 @@ static inline int spatial_bin_of(float x, float lo, float scale)
 	return bin < 0 ? 0 : bin >= SPATIAL_BINS ? SPATIAL_BINS - 1 : bin;
 }
 
-/* The cheapest plane across one axis, if cheaper than *best. */
+/* Find the cheapest plane across one axis; keep it if cheaper than *best. */
 static inline void try_planes(const struct triangle *triangles, const box8 *refs, uint32_t n, box8 space, int axis,
                               struct plane *best)
 {
@@ -158,10 +158,10 @@ static inline struct plane find_plane(const struct triangle *triangles, const bo
 }
 
 /*
- * Sort references to both sides of a plane: the left side's to the front, the right side's behind them, up to `room` in
- * all. A triangle that is cut goes to both, or, with may_keep, whole to the one where that is cheaper (Stich et al.
- * sec. 4.4). The parts get their counts and boxes.
- * @return 1; 0 where all would be on one side: the same references are there, in another order
+ * Sort references to both sides of a plane: first those of the left side, then those of the right, up to `room` in all.
+ * A triangle that straddles the plane goes to both or, with may_keep, whole to one side if that is cheaper (Stich et
+ * al. sec. 4.4). Sets count and box of both parts.
+ * @return 1; 0 if one side would be empty: refs then has the same references in another order
  */
 static inline int partition_space(const struct triangle *triangles, box8 *refs, uint32_t n, uint32_t room,
                                   const struct plane *plane, int may_keep, struct sah_part *left,
@@ -187,7 +187,7 @@ static inline int partition_space(const struct triangle *triangles, box8 *refs, 
 		}
 	}
 	n_cut = n - n_left - n_right;
-	/* The counts as they would be if all were cut. */
+	/* Counts if every straddling triangle were cut. */
 	n_right += n_cut;
 	n_left += n_cut;
 	for (uint32_t i = n - n_right; n_cut; n_cut--) {
@@ -212,7 +212,7 @@ static inline int partition_space(const struct triangle *triangles, box8 *refs, 
 			n_right--;
 			i++;
 		} else {
-			/* Behind those that are still to come. */
+			/* Move it after the references that are still to be cut. */
 			refs[i] = refs[i + n_cut - 1];
 			refs[i + n_cut - 1] = ref;
 			r = rb;

@@ -7,7 +7,7 @@
 #include "base/err.h"
 #include "kernels/rays/rays.h"
 
-/* Make a point of a position. Clears *bounded where w <= 0. @return 0: it has no finite place */
+/* Convert a homogeneous position to a point. Clears *bounded if w <= 0. @return 0: it is not finite */
 static int point_of(const float p[4], float out[3], int *bounded)
 {
 	if (p[3] == 1.0f) {
@@ -25,7 +25,7 @@ static int point_of(const float p[4], float out[3], int *bounded)
 	return 1;
 }
 
-/* Fill in one triangle and its box; 0: leave it out. */
+/* Fill in one triangle and its box. @return 0: leave it out */
 static int set_triangle(const float (*positions)[4], const uint32_t vertex[3], uint32_t primitive,
                         struct triangle *triangle, struct bvh_box *box)
 {

@@ -12,7 +12,7 @@
 /* Most instances in a leaf. */
 #define LEAF_INSTANCES 1
 
-/* Eye-space box of an instance. obj: the box of its BLAS; pad: how much to widen that. */
+/* Compute the eye-space box of an instance. obj: the box of its BLAS; pad: widens obj by this much. */
 static void eye_box(const struct instance *instance, const struct bvh_box *obj, float pad, struct bvh_box *out)
 {
 	for (int row = 0; row < 3; row++) {
@@ -25,7 +25,7 @@ static void eye_box(const struct instance *instance, const struct bvh_box *obj, 
 			lo += x < y ? x : y;
 			hi += x < y ? y : x;
 		}
-		/* Rounding moves rays on their way into object space. */
+		/* Rays transformed to object space are off by rounding. */
 		lo -= 1e-6 * (fabs(lo) + (hi - lo));
 		hi += 1e-6 * (fabs(hi) + (hi - lo));
 		out->lo[row] = (float)(lo > -SOUP_UNBOUNDED ? lo : -SOUP_UNBOUNDED);
@@ -33,7 +33,7 @@ static void eye_box(const struct instance *instance, const struct bvh_box *obj, 
 	}
 }
 
-/* What a TLAS is built from. */
+/* Input of a TLAS. */
 struct top {
 	struct bvh_box *boxes;
 	uint32_t *items; /* instances */
@@ -49,7 +49,7 @@ static void top_add(struct top *top, uint32_t item, const struct instance *insta
 	if (obj->lo[0] > obj->hi[0])
 		return; /* an empty mesh */
 	eye_box(instance, obj, pad, box);
-	/* A matrix that is not finite leaves nothing to hit. */
+	/* With a matrix that is not finite there is nothing to hit. */
 	for (int a = 0; a < 3; a++)
 		if (!(box->lo[a] <= box->hi[a]))
 			return;
@@ -149,7 +149,7 @@ static int list_spaces(struct accel *accel, const struct scene *scene, const str
 	return 0;
 }
 
-/* Room for what n instances may come to: each is in one view's tree, in that of its space and in that of its skies. */
+/* Allocate for n instances: each may be in the tree of one view, of its space, and of its space's skies. */
 static int make_room(struct accel *accel, uint32_t n)
 {
 	const size_t most = 3 * (size_t)n + 1;

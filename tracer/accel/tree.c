@@ -37,7 +37,7 @@ static int box_is_sound(const struct node2 *node, int side)
 	return 1;
 }
 
-/* One side of a node; notes how deep its child is (0: nobody has come to it yet) and how many items leaves hold. */
+/* Check one side of a node. Records the depth of its child (0: not visited yet) and counts the items in leaves. */
 static int side_is_sound(const struct tree *tree, uint32_t at, int side, uint8_t *depth, uint64_t *items)
 {
 	const uint32_t child = tree->nodes[at].child[side], count = tree->nodes[at].count[side];

@@ -20,7 +20,7 @@ const char *const hook_type_names[N_HOOK_TYPES] = { "float", "int", "color" };
 
 /* --- Text -------------------------------------------------------------------------------------------------------- */
 
-/* The text with its comments blank, lines kept. */
+/* Copy the source with comments blanked and line breaks kept. */
 static char *without_comments(const char *text)
 {
 	char *out = strdup(text);
@@ -44,7 +44,7 @@ static int is_name(char c)
 	return isalnum((unsigned char)c) || c == '_';
 }
 
-/* Whether a function of this name is defined: the name, its parameters, and a body. */
+/* Is a function of this name defined? Looks for the name, its parameters and a body. */
 static int defines(const char *text, const char *name)
 {
 	const size_t length = strlen(name);
@@ -97,7 +97,7 @@ static int is_known(const struct hook *h, const char *name)
 	return 0;
 }
 
-/* What stands behind "#pragma relume". */
+/* Parse the text after "#pragma relume". */
 static int read_parameter(struct hook *h, unsigned line, const char *text)
 {
 	struct hook_parameter *p = &h->parameters[h->n_parameters];
@@ -186,7 +186,7 @@ int hook_check_parameters(const struct hook *hook, const struct scene_parameter 
 
 /* --- Declarations ------------------------------------------------------------------------------------------------ */
 
-/* The struct of parameters, and how it is read out of a row. */
+/* Write the struct of parameters and the function that reads it from a row. */
 static void declare_parameters(const struct hook *h, FILE *out)
 {
 	static const char *const types[N_HOOK_TYPES] = { "float", "int", "float4" };

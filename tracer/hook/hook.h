@@ -1,8 +1,8 @@
 /*
- * A user's hook: OpenCL C text whose functions stand in for stages of the wavefront. corpus/hooks/README.md is what its
- * author reads; kernels/frame/hook.h calls the functions.
+ * A user's hook: OpenCL C source whose functions replace stages of the wavefront. corpus/hooks/README.md documents it
+ * for authors of hooks; kernels/frame/hook.h calls the functions.
  *
- * Parameters are declared in the text, a line each, and set by rules (look/rules/rules.h):
+ * Parameters are declared in the source, one per line, and set by rules (look/rules/rules.h):
  *
  *     #pragma relume parameter float bands = 3
  *     #pragma relume parameter color tint = 1 0.5 0
@@ -35,7 +35,7 @@ extern const char *const hook_type_names[N_HOOK_TYPES];
 struct hook_parameter {
 	char name[48];
 	enum hook_type type;
-	unsigned words; /* of a row: 1, or 3 of a colour */
+	unsigned words; /* words in a row: 1, or 3 for a colour */
 	float initial[3];
 };
 
@@ -43,39 +43,39 @@ struct hook_parameter {
 
 struct hook {
 	const char *path;   /* borrowed */
-	char *text;         /* its own, behind a #line */
-	char *declarations; /* to stand before the kernels: which stages there are, and the struct of parameters */
+	char *text;         /* owned; the source after a #line */
+	char *declarations; /* prepended to the kernels: the stages that exist and the struct of parameters */
 	unsigned stages;    /* HOOK_* */
 	int asks_boxes;     /* it calls relume_box_tests */
-	void *library;      /* of host.h, for the reference device; or NULL */
+	void *library;      /* library of host.h for the reference device, or NULL */
 	struct hook_parameter parameters[HOOK_MAX_PARAMETERS];
-	unsigned n_parameters, words; /* words: of a row of all parameters */
+	unsigned n_parameters, words; /* words: in a row of all parameters */
 };
 
 /**
- * Make one of a text.
- * @param path  that messages name; kept until hook_free
+ * Create a hook from its source.
+ * @param path  file name for messages; kept until hook_free
  * @return as hook_load
  */
 int hook_make(const char *path, const char *text, struct hook **out);
 
 /**
- * Read a file.
+ * Create a hook from a file.
  * @param path  kept until hook_free
- * @return 0, ERR_INPUT (reported: the file, its line) or ERR_SYSTEM (reported)
+ * @return 0, ERR_INPUT (reported with file and line) or ERR_SYSTEM (reported)
  */
 int hook_load(const char *path, struct hook **out);
 void hook_free(struct hook **hook);
 
 /**
- * A row of parameters: what the text says, then what lists say, the last one last.
+ * Fill a row of parameters: start with the defaults from the source, then apply each list in turn. Later lists win.
  * @param row  [words]
  */
 void hook_start_row(const struct hook *hook, float *row);
 void hook_fill_row(const struct hook *hook, const struct scene_parameter *list, uint32_t n, float *row);
 
 /**
- * Check what rules set: each name is known to the hook and has as many numbers as it takes.
+ * Check parameters set by rules: the hook declares each name, and the number of values matches.
  * @return 0 or ERR_INPUT (reported)
  */
 int hook_check_parameters(const struct hook *hook, const struct scene_parameter *list, uint32_t n);

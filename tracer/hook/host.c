@@ -15,7 +15,7 @@
 
 extern char **environ;
 
-/* One of the kernels' files. */
+/* Text of a kernel source file. */
 static const char *text_of(const char *name)
 {
 	for (size_t i = 0; i < n_kernel_files; i++)
@@ -36,7 +36,7 @@ static int write_text(const char *path, const struct hook *hook)
 	return failed ? err_report(ERR_SYSTEM, path, "%s", strerror(errno)) : 0;
 }
 
-/* Interpreters and drivers of other compilers do not know OpenCL C. */
+/* Clang by name: other compilers do not accept OpenCL C. */
 static int run_clang(const struct hook *hook, const char *source, const char *library)
 {
 	const char *const words[] = {
