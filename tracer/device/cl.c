@@ -16,47 +16,48 @@
 #include "kernels/embed.h"
 
 /*
- * Work items in a group. A driver runs a group's items in a loop: small groups cost a call each, large ones leave cores
- * without work at the end of a launch.
+ * Work items in a group on a CPU. The driver runs a group's items in a loop. Small groups cost a call each; large ones
+ * leave cores idle at the end of a launch.
  */
 #define GROUP_CPU 8
 #define GROUP_GPU 64
 
-/* Small writes that a CPU is not waited for: each wait puts a thread to sleep and wakes another. */
+/* Small writes to a CPU device are staged instead of waiting for them: each wait puts one thread to sleep and wakes
+ * another. */
 #define STAGE_BYTES ((size_t)1 << 20)
-#define STAGE_MOST ((size_t)1 << 16) /* of one write */
+#define STAGE_MOST ((size_t)1 << 16) /* most bytes of one staged write */
 
-/* What all that were shared from one device have in common. */
+/* State common to all devices shared from one device. */
 struct cl_common {
 	pthread_mutex_t lock;
 	unsigned refs;
 	cl_device_id root, id; /* id: root, or a sub-device of it */
 	cl_context context;
-	pthread_mutex_t programs_lock; /* of all programs, for as long as one is built */
+	pthread_mutex_t programs_lock; /* guards all programs; held while one is built */
 	cl_program *programs; /* [n_kernel_files], NULL: not built yet */
 	pthread_t builder;
-	size_t built_early; /* the file whose program the builder makes; n_kernel_files: there is no builder */
-	int early_err;      /* what came of it, until somebody wants it */
-	struct fault_place *early; /* where the builder is at work */
+	size_t built_early; /* the file whose program the builder thread builds; n_kernel_files: no builder */
+	int early_err;      /* result of that build, until its first use */
+	struct fault_place *early; /* records when the builder is in the driver */
 	struct cl_keeping keeping;
-	struct cl_common *left; /* by devices before: cl_leave_programs */
+	struct cl_common *left; /* next in the list of those left by closed devices (cl_leave_programs) */
 	const struct hook *hook; /* or NULL */
 	int said; /* cl_report */
-	uint64_t memory_bytes, buffer_bytes, used_bytes; /* of the device in all, of one buffer at most, of all buffers now */
+	uint64_t memory_bytes, buffer_bytes, used_bytes; /* total of the device; most of one buffer; all buffers now */
 };
 
 struct cl_device {
 	struct cl_common *common;
 	struct fault_place *place; /* or NULL */
 	cl_command_queue queue;
-	cl_kernel kernels[N_KERNELS]; /* of its own: arguments are part of a kernel object */
-	struct cl_pace paces[N_KERNELS]; /* where it is no CPU */
-	unsigned char widened[N_KERNELS]; /* where it is PoCL's: cl_launch_wide */
+	cl_kernel kernels[N_KERNELS]; /* not shared: a kernel object includes its arguments */
+	struct cl_pace paces[N_KERNELS]; /* used unless the device is a CPU */
+	unsigned char widened[N_KERNELS]; /* used if the driver is PoCL: cl_launch_wide */
 	int cpu, pocl;
 	enum device_family family;
-	char *staged;    /* [STAGE_BYTES] of a CPU: small writes on their way; NULL: none yet */
-	size_t n_staged; /* bytes that may not have been written yet */
-	char lack[160]; /* what the last ERR_MEMORY was about */
+	char *staged;    /* [STAGE_BYTES] for a CPU: small writes in progress; NULL: none yet */
+	size_t n_staged; /* staged bytes that may not have been written yet */
+	char lack[160]; /* description of the last ERR_MEMORY */
 };
 
 struct cl_buffer {
@@ -64,13 +65,13 @@ struct cl_buffer {
 	size_t bytes;
 };
 
-/* Until the process ends. */
+/* Kept until the process ends. */
 static struct cl_common *all_left;
 static pthread_mutex_t left_lock = PTHREAD_MUTEX_INITIALIZER;
 
 /*
- * A sub-device of so many units, so that a run uses no more cores than it was given. PoCL 7's processors have no
- * sub-devices: the user is told.
+ * Replace the device by a sub-device with `threads` units, so that a run uses no more cores than it was given. CPU
+ * devices of PoCL 7 do not support sub-devices; a message says so.
  */
 static int limit_threads(struct cl_common *dev, int cpu, unsigned threads)
 {
@@ -256,8 +257,7 @@ int cl_report_lack(struct cl_device *dev)
 	               err_report(ERR_SYSTEM, "OpenCL", "%s", dev->lack);
 }
 
-/* Note an OpenCL error. @return ERR_MEMORY where it says that there is too little of something; ERR_SYSTEM
- * (reported) */
+/* Handle an OpenCL error. @return ERR_MEMORY if a resource ran out; otherwise ERR_SYSTEM (reported) */
 static int lack_or_report(struct cl_device *dev, cl_int code, const char *what)
 {
 	if (code != CL_MEM_OBJECT_ALLOCATION_FAILURE && code != CL_OUT_OF_RESOURCES && code != CL_INVALID_BUFFER_SIZE)
@@ -266,7 +266,7 @@ static int lack_or_report(struct cl_device *dev, cl_int code, const char *what)
 	return ERR_MEMORY;
 }
 
-/* Count a buffer of so many bytes. @return 0, or ERR_MEMORY: there is no room for it */
+/* Count the memory of a new buffer. @return 0, or ERR_MEMORY if it does not fit */
 static int take_memory(struct cl_device *dev, size_t bytes)
 {
 	struct cl_common *c = dev->common;
@@ -340,7 +340,7 @@ void cl_release(struct cl_device *dev, struct cl_buffer **buffer)
 	*buffer = NULL;
 }
 
-/* All that was queued is done. */
+/* Record that all queued commands are done. */
 static int note_done(struct cl_device *dev, cl_int code, const char *what)
 {
 	if (code != CL_SUCCESS)
@@ -350,7 +350,7 @@ static int note_done(struct cl_device *dev, cl_int code, const char *what)
 	return 0;
 }
 
-/* A copy of what is to be written, which stays until all is done. NULL: it is too much, or no CPU writes it */
+/* Copy data for a write; the copy stays until all queued commands are done. NULL: too much data, or not a CPU */
 static const void *stage(struct cl_device *dev, const void *data, size_t bytes)
 {
 	char *copy;
@@ -418,7 +418,8 @@ int cl_finish(struct cl_device *dev)
 	return note_done(dev, clFinish(dev->queue), "clFinish");
 }
 
-/* What the builder has reported is its first taker's failure; others try again. */
+/* Build the program of a file. If the early build failed and was reported, the first caller fails with its error; later
+ * callers build it again. */
 static int build_program(struct cl_common *c, size_t file, struct fault_place *place)
 {
 	if (file == c->built_early && c->early_err) {

@@ -2,7 +2,7 @@
 
 #include "base/err.h"
 
-/* Not in the core header: what the ICD loader says when no driver is installed. */
+/* Not in the core header: returned by the ICD loader when no driver is installed. */
 #define CL_PLATFORM_NOT_FOUND (-1001)
 
 const char *cl_error_name(cl_int code)
@@ -31,11 +31,11 @@ const char *cl_error_name(cl_int code)
 	return "an unnamed OpenCL error";
 }
 
-/* OpenCL 1.2 has -1 to -19 and -30 to -68, later ones up to -72; extensions go on at -1000 and below. */
+/* OpenCL 1.2 defines -1 to -19 and -30 to -68, later versions up to -72. Extensions use -1000 and below. */
 int cl_error_exists(cl_int code)
 {
 	return (code <= -1 && code >= -19) || (code <= -30 && code >= -72) || (code <= -1000 && code >= -1200) ||
-	       (code <= -2000 && code >= -2100) || code == -9999; /* NVIDIA's, for an access outside of a buffer */
+	       (code <= -2000 && code >= -2100) || code == -9999; /* NVIDIA's code for an access outside a buffer */
 }
 
 int cl_report(int *said, cl_int code, const char *what)

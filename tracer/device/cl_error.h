@@ -1,18 +1,17 @@
-/* OpenCL's errors by OpenCL's own names for them. */
+/* Names of OpenCL errors. */
 #pragma once
 
 #include <CL/cl.h>
 
-/** An error's name in OpenCL's headers. */
+/** Name of an error in OpenCL's headers. */
 const char *cl_error_name(cl_int code);
 
-/** 1: OpenCL has an error of this code that it may return here; 0: the driver returns rubbish. */
+/** 1: OpenCL or a known extension defines this error code; 0: the driver returned an invalid one. */
 int cl_error_exists(cl_int code);
 
 /**
- * Report a device's first error. Those that follow say nothing new: a device that is gone refuses all that its queues
- * are asked for.
- * @param said  of the device and all threads that use it, initially 0
+ * Report the first error of a device. Later errors add nothing: a lost device fails every command.
+ * @param said  shared by all threads that use the device; initially 0
  * @return ERR_SYSTEM
  */
 int cl_report(int *said, cl_int code, const char *what);

@@ -1,12 +1,12 @@
 #include "tracer/device/cl_launch.h"
 
 #define PART_NS 1e8
-#define FIRST_ITEMS ((size_t)1 << 14) /* of a kernel that nobody has measured */
+#define FIRST_ITEMS ((size_t)1 << 14) /* work items in the first launch of a kernel that is not measured yet */
 #define LEAST_ITEMS ((size_t)1 << 8)
 #define MOST_GROWTH 8
 
-#define WIDTH ((size_t)65528) /* of the narrowest launches: below 65535 PoCL compiles for small ones */
-#define WIDER 8               /* times as wide, with groups as many times as large */
+#define WIDTH ((size_t)65528) /* work items in the narrowest launches: below 65535, PoCL compiles for small ones */
+#define WIDER 8               /* each wider launch is this many times as wide, as are its groups */
 #define MOST_GROUP 4096
 
 static void forget(struct cl_pace *pace)
@@ -21,7 +21,7 @@ void cl_pace_free(struct cl_pace *pace)
 	forget(pace);
 }
 
-/* What the measured launch tells, once it is done. Nothing is waited for. */
+/* Learn the pace from the measured launch if it is done. Does not wait. */
 static void learn(struct cl_pace *pace)
 {
 	cl_ulong start = 0, end = 0;
@@ -67,7 +67,7 @@ cl_int cl_launch(cl_command_queue queue, cl_kernel kernel, size_t n_items, size_
 			pace->n_measured = measure ? part : pace->n_measured;
 			first += part;
 		} else if (code == CL_OUT_OF_RESOURCES && pace != &whole && part > LEAST_ITEMS) {
-			/* Too much at once. */
+			/* Too many work items at once. */
 			pace->most_items = part / 2;
 			code = CL_SUCCESS;
 		}

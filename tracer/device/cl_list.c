@@ -12,8 +12,8 @@
 #define MAX_PLATFORMS 16
 
 /*
- * PoCL learns cores and memory from hwloc, and hwloc from /sys; in a chroot or container without it PoCL 3.1 ends the
- * process ("Not enough memory to run on this device"). There, hwloc is told what sysconf knows.
+ * PoCL gets cores and memory from hwloc, which reads /sys. In a chroot or container without /sys, PoCL 3.1 ends the
+ * process ("Not enough memory to run on this device"). There, pass the values of sysconf to hwloc.
  */
 static void describe_machine(void)
 {
@@ -30,7 +30,7 @@ int cl_list_find(cl_device_id ids[CL_LIST_MOST], size_t *n)
 {
 	cl_platform_id platforms[MAX_PLATFORMS];
 	cl_uint n_platforms = 0, n_found;
-	cl_int code, said = CL_SUCCESS; /* the last refusal of a platform */
+	cl_int code, said = CL_SUCCESS; /* last error of a platform */
 
 	describe_machine();
 	caches_find();
@@ -79,8 +79,8 @@ enum device_type cl_list_type(cl_device_id id)
 	return type & CL_DEVICE_TYPE_CPU ? DEVICE_CPU : type & CL_DEVICE_TYPE_GPU ? DEVICE_GPU : DEVICE_ACCELERATOR;
 }
 
-/* Vectors of a CPU; of a GPU what runs in step, which two vendors tell (cl_nv_device_attribute_query,
- * cl_amd_device_attribute_query). */
+/* Vector width of a CPU; for a GPU, the number of work items in lockstep, which two vendors report
+ * (cl_nv_device_attribute_query, cl_amd_device_attribute_query). */
 static unsigned width_of(cl_device_id id)
 {
 	const cl_device_info of_gpu[] = { 0x4003 /* WARP_SIZE_NV */, 0x4043 /* WAVEFRONT_WIDTH_AMD */ };

@@ -1,4 +1,4 @@
-/* Which OpenCL devices there are. For cl.c alone; cl_list() is in cl.h. */
+/* Enumeration of OpenCL devices. Used only by cl.c; cl_list() is in cl.h. */
 #pragma once
 
 #include <CL/cl.h>
@@ -9,9 +9,9 @@
 
 #define CL_LIST_MOST 64
 
-/** Every device of every platform, in the drivers' order. @return 0 or ERR_SYSTEM (reported: there is none) */
+/** List every device of every platform, in the drivers' order. @return 0 or ERR_SYSTEM (reported: no device found) */
 int cl_list_find(cl_device_id ids[CL_LIST_MOST], size_t *n);
 
-/** A device's CL_DEVICE_GLOBAL_MEM_SIZE or the like; and its kind. */
+/** CL_DEVICE_GLOBAL_MEM_SIZE or a similar size of a device; type of a device. */
 uint64_t cl_list_bytes(cl_device_id id, cl_device_info what);
 enum device_type cl_list_type(cl_device_id id);

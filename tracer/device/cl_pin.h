@@ -1,7 +1,7 @@
 /*
- * Threads of a driver that stay on a core each. Linux often wakes both threads of a launch on one of two cores, and
- * leaves them there for its length. PoCL's own way (POCL_AFFINITY) ends the process where it has more threads than
- * there are cores.
+ * Pinning of a driver's threads, one to each core. Linux often wakes both threads of a launch on the same one of two
+ * cores, and leaves them there until the launch ends. PoCL's own pinning (POCL_AFFINITY) ends the process if PoCL has
+ * more threads than there are cores.
  */
 #pragma once
 
@@ -18,5 +18,6 @@ struct cl_pin {
 
 void cl_pin_begin(struct cl_pin *pin);
 
-/** Where as many threads have begun since as the process may use cores, and it may use all: give them one each. */
+/** Pin each thread started since cl_pin_begin to its own core, if there are exactly as many as cores and the process
+ * may use all cores. */
 void cl_pin_end(const struct cl_pin *pin);

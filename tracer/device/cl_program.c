@@ -16,22 +16,23 @@
 #include "tracer/hook/hook.h"
 
 /*
- * In front of every program. The C twins are compiled without contraction too, so that both decide the same. Packets
- * are wider than the registers of a machine without AVX-512: LLVM 21 (PoCL 7.1) takes what that does to calls for an
- * error, though a program has none that leave it.
+ * Prepended to every program. The C twins are also compiled without contraction, so that both make the same decisions.
+ * Packets are wider than the registers of a machine without AVX-512. LLVM 21 (PoCL 7.1) reports the effect on calling
+ * conventions as an error, although no call leaves the program.
  */
 static const char prelude[] = "#pragma OPENCL FP_CONTRACT OFF\n"
                               "#ifdef __clang__\n"
                               "#pragma clang diagnostic ignored \"-Wpsabi\"\n"
                               "#endif\n";
 
-/* No program is larger: the driver returns rubbish for its size. */
+/* No program is larger than this; a greater size from the driver is invalid. */
 #define MOST_BINARY ((size_t)1 << 30)
 
-/* To be raised where the same text is to be compiled otherwise. */
+/* Raise when the same source must be compiled in a different way. */
 #define PROGRAM_VERSION 1
 
-/* Quotients and roots as IEEE 754 has them, where a device does not round them so unless it is asked to. */
+/* Build options: ask for correctly rounded (IEEE 754) division and square roots on devices that do not round them so by
+ * default. */
 static const char *options_for(cl_device_id device)
 {
 	cl_device_fp_config rounding = 0;
@@ -43,10 +44,10 @@ static const char *options_for(cl_device_id device)
 		       ? "-cl-std=CL1.2 -cl-fp32-correctly-rounded-divide-sqrt" : "-cl-std=CL1.2";
 }
 
-/* What stands around a file's text: of those that call hooks, the hook's own. */
+/* Text before and after a file's source: for files that call hooks, that of the hook. */
 struct around {
 	const char *before, *after;
-	const char *name; /* that messages blame */
+	const char *name; /* name of the source in messages */
 };
 
 static struct around around_of(const struct kernel_file *kernels, const struct hook *hook)
@@ -85,15 +86,15 @@ void cl_program_keep(cl_device_id device, const char *folder, int always, struct
 		keeping->folder[0] = '\0';
 }
 
-/* Two hashes that have nothing in common. */
+/* Update two independent hashes. */
 static void mix(uint64_t key[2], const void *bytes, size_t n)
 {
 	key[0] = XXH3_64bits_withSeed(bytes, n, key[0]);
 	key[1] = XXH64(bytes, n, key[1]);
 }
 
-/* All that a compiled program depends on; and a name for the device, so that a new text or driver takes the old file's
- * place. */
+/* Hash everything that a compiled program depends on. The file is named after the device alone, so a new source or
+ * driver replaces the old file. */
 static void name_program(cl_device_id device, const struct kernel_file *kernels, struct around around,
                          const struct cl_keeping *keeping, char path[PATH_MAX], uint64_t key[2])
 {
@@ -130,7 +131,7 @@ static void name_program(cl_device_id device, const struct kernel_file *kernels,
 	         (unsigned long long)name);
 }
 
-/* What an earlier run left. @return NULL: nothing that the driver takes */
+/* Load the program that an earlier run kept. @return NULL: nothing that the driver accepts */
 static cl_program find_program(cl_context context, cl_device_id device, const char *path, const uint64_t key[2])
 {
 	cl_program program = NULL;
@@ -170,7 +171,7 @@ static void leave_program(cl_program program, const char *path, const uint64_t k
 
 /* --- Building ---------------------------------------------------------------------------------------------------- */
 
-/* is_hook: it is a user's text that fails. @return ERR_INPUT or ERR_SYSTEM */
+/* is_hook: 1 if the failing source is a user's hook. @return ERR_INPUT or ERR_SYSTEM */
 static int report_build_log(cl_program program, cl_device_id device, const char *name, int is_hook)
 {
 	size_t bytes = 0;
@@ -185,7 +186,7 @@ static int report_build_log(cl_program program, cl_device_id device, const char 
 	                  "the device's compiler refuses this file; its words are above");
 }
 
-/* A compilation that somebody waits for. */
+/* A compilation that a thread waits for. */
 struct waiting {
 	pthread_mutex_t lock;
 	pthread_cond_t changed;
@@ -197,8 +198,8 @@ struct waiting {
 #define TERMINAL_S 1
 #define LINES_S 5
 
-/* Say after some seconds what takes so long: on a terminal each program, over a progress bar that may stand there; else
- * once. */
+/* Print what is compiling if it takes more than some seconds: for each program on a terminal, overwriting any progress
+ * bar; otherwise once. */
 static void *say_when_late(void *user)
 {
 	struct waiting *w = user;

@@ -22,22 +22,22 @@
 struct device {
 	struct cl_device *cl; /* NULL: the reference device */
 	struct fault_place *place; /* or NULL */
-	unsigned threads;     /* of the reference device */
-	const struct hook *hook; /* its; or NULL */
+	unsigned threads;     /* threads of the reference device */
+	const struct hook *hook; /* hook of the reference device, or NULL */
 	enum device_family family;
 	atomic_int interrupted;
 	struct device_profile *profile; /* or NULL */
-	struct device_description description; /* of an OpenCL device */
+	struct device_description description; /* description of an OpenCL device */
 	char name[320];
 };
 
 struct device_buffer {
-	struct cl_buffer *cl; /* or */
-	void *memory;         /* of the reference device */
+	struct cl_buffer *cl; /* buffer of an OpenCL device, or NULL */
+	void *memory;         /* memory of the reference device, or NULL */
 	size_t bytes;
 };
 
-/* A call of the driver, for a device that is at work or for none. */
+/* Call the driver, on behalf of a place or of none (NULL). */
 #define IN_DRIVER(place, call) (fault_enter(place), fault_leave(place, call))
 
 int device_list(struct device_description **out, size_t *n)
@@ -65,7 +65,7 @@ enum device_family device_type_family(enum device_type type)
 	return type == DEVICE_CPU ? FAMILY_PACKETS : FAMILY_COMPRESSED;
 }
 
-/* The first device of a type; n: there is none. */
+/* Index of the first device of a type; n: there is none. */
 static size_t find_type(const struct device_description *list, size_t n, const char *type)
 {
 	size_t i = 0;
@@ -100,8 +100,8 @@ int device_find(const struct device_description *list, size_t n, const char *cho
 }
 
 /*
- * PoCL 7 runs its threads by TBB, and such a device has no parts (cl.c: limit_threads). It reads how many it may have
- * when a process first asks for devices; PoCL 3 does not know the name.
+ * PoCL 7 runs its threads with TBB, and its devices do not support sub-devices (cl.c: limit_threads). It reads this
+ * variable for its number of threads when a process first lists devices. PoCL 3 ignores it.
  */
 static void limit_pocl(unsigned threads)
 {
@@ -123,7 +123,7 @@ static int open_cl(struct device *dev, const char *choice, unsigned threads)
 	limit_pocl(threads);
 	if (threads == 0)
 		cl_pin_begin(&pin);
-	err = IN_DRIVER(listing, cl_list(&list, &n)); /* the first loads the drivers */
+	err = IN_DRIVER(listing, cl_list(&list, &n)); /* the first call loads the drivers */
 	fault_arm();
 	fault_close(&listing);
 	if (threads == 0)
@@ -194,7 +194,7 @@ void device_close(struct device **dev)
 	*dev = NULL;
 }
 
-/* "0,1,2" for every OpenCL device. @return to be freed, or NULL (reported) */
+/* "0,1,2" for every OpenCL device. @return free with free(); NULL (reported) on failure */
 static char *name_all(unsigned threads)
 {
 	struct device_description *list = NULL;
@@ -409,7 +409,7 @@ static double clock_of(clockid_t clock)
 	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* What has been spent when something begins; zeros without a profile. */
+/* Times at the start of an operation; zeros without a profile. */
 static struct device_spent begin(const struct device *dev)
 {
 	struct device_spent s = { 0, 0, 0, 0 };
@@ -515,7 +515,7 @@ static void *run_share(void *arg)
 	return NULL;
 }
 
-/* A hook's own, where it has one. */
+/* The C twin of a kernel: the hook's, if it has one. */
 static kernel_twin *twin_of(const struct device *dev, enum kernel kernel)
 {
 	char name[64];
@@ -541,7 +541,7 @@ static int run_reference(struct device *dev, enum kernel kernel, size_t n_items,
 	for (unsigned i = 0; i < dev->threads; i++) {
 		shares[i] = (struct share){ twin, pointers, n_items * i / dev->threads,
 			                    n_items * (i + 1) / dev->threads, 0 };
-		/* The last share, and any that gets no thread, runs here. */
+		/* The last share, and any whose thread cannot be started, runs here. */
 		if (i + 1 < dev->threads && pthread_create(&shares[n_started].thread, NULL, run_share, &shares[i]) == 0)
 			n_started++;
 		else

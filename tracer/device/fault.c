@@ -13,10 +13,10 @@
 #include "base/progress.h"
 #include "tracer/device/cl_error.h"
 
-#define MOST_FRAMES 64 /* of a stack */
-#define IDLE 0.02      /* of one processor: a process that uses less is idle */
+#define MOST_FRAMES 64 /* most frames of a stack that are looked at */
+#define IDLE 0.02      /* share of one processor; a process that uses less is idle */
 
-static struct fault_journal unshared; /* of a process that nobody watches */
+static struct fault_journal unshared; /* journal of a process without a watching parent */
 static struct fault_journal *journal = &unshared;
 static _Thread_local struct fault_place *inside;
 
@@ -25,9 +25,9 @@ static const int signals[] = { SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP
 
 static struct {
 	int is_watched, refusals;
-	atomic_int is_over;   /* a fault is noted, or the process ends because it wants to */
+	atomic_int is_over;   /* a fault is noted, or the process ends on purpose */
 	struct sigaction before[N_SIGNALS];
-	double cpu_s, idle_s; /* of fault_look */
+	double cpu_s, idle_s; /* used by fault_look */
 } state;
 
 const char *fault_words(const struct fault *fault, char *text, size_t size)
@@ -145,7 +145,7 @@ static void append(char *out, size_t size, const char *text)
 	}
 }
 
-/* Add the kernels that a place may be compiling to what a fault names. */
+/* Add the kernels that a place may be compiling to the description of a fault. */
 static void name_new(const struct fault_place *place, struct fault *f)
 {
 	const unsigned n = atomic_load(&place->n_new);
@@ -160,7 +160,8 @@ static void name_new(const struct fault_place *place, struct fault *f)
 	}
 }
 
-/* How much a place tells: a program being built, kernels that may be compiled, other launches, nothing. */
+/* Rank of a place by what it may be doing, highest first: building a program, compiling kernels, other launches,
+ * nothing. */
 #define COMPILES 2
 
 static unsigned telling(const struct fault_place *p)
@@ -168,7 +169,7 @@ static unsigned telling(const struct fault_place *p)
 	return atomic_load(&p->program) ? COMPILES + 1 : atomic_load(&p->n_new) ? COMPILES : atomic_load(&p->launched) != 0;
 }
 
-/* is_sure: it is this place, no other of the same device */
+/* is_sure: 1 if the fault is at this place, and at no other of the same device */
 static void describe(const struct fault_place *place, int is_sure, enum fault_kind kind, int code, struct fault *f)
 {
 	const char *program = atomic_load(&place->program);
@@ -202,7 +203,7 @@ static void note(const struct fault_place *place, enum fault_kind kind, int code
 		describe(place, place == inside || kind == FAULT_HUNG, kind, code, &journal->fault);
 }
 
-/* The place that tells most, and at least so much; NULL: there is none. */
+/* The place with the highest rank, which must be at least `least`; NULL: there is none. */
 static const struct fault_place *find_busy(unsigned least)
 {
 	const struct fault_place *best = NULL;
@@ -213,18 +214,19 @@ static const struct fault_place *find_busy(unsigned least)
 	return best;
 }
 
-/* The linker's: where the text of this program, or of this library, is. */
+/* Symbols from the linker: bounds of the code of this program or library. */
 extern const char __ehdr_start[] __attribute__((visibility("hidden"))), etext[] __attribute__((visibility("hidden")));
 
 __attribute__((noinline)) static int is_own_thread(void)
 {
 	void *frames[MOST_FRAMES];
-	const int n = backtrace(frames, MOST_FRAMES), own = 2; /* the innermost are this function and the handler */
+	const int n = backtrace(frames, MOST_FRAMES), own = 2; /* the innermost frames are this function and the
+	                                                        * handler */
 
 	for (int i = own; i < n; i++)
 		if ((const char *)frames[i] >= __ehdr_start && (const char *)frames[i] < etext)
 			return 1;
-	return n == MOST_FRAMES; /* the end of the stack is not known */
+	return n == MOST_FRAMES; /* the rest of the stack is unknown */
 }
 
 static void take_signal(int number, siginfo_t *info, void *context)
@@ -235,14 +237,16 @@ static void take_signal(int number, siginfo_t *info, void *context)
 
 	(void)context;
 	atomic_store(&journal->is_judged, 1);
-	for (size_t i = 0; i < N_SIGNALS; i++) /* a driver's handler need not end the process by a signal that was sent */
+	for (size_t i = 0; i < N_SIGNALS; i++) /* a signal sent by another process need not end this one in the driver's
+	                                        * handler */
 		sigaction(signals[i], was_sent ? &by_default : &state.before[i], NULL);
 	if (is_ours && !place && !is_own_thread())
 		place = find_busy(1);
 	if (is_ours && place)
 		note(place, FAULT_SIGNAL, number);
 	if (was_sent)
-		raise(number); /* once this returns; others come again by themselves */
+		raise(number); /* delivered once this handler returns; other signals recur when the instruction is
+		                * retried */
 }
 
 static void at_exit(void)
@@ -278,7 +282,7 @@ void fault_begin(struct fault_journal *of, int refusals)
 	memset(of->places, 0, atomic_load(&of->n_places) * sizeof(of->places[0]));
 	atomic_store(&of->n_places, 0);
 	atomic_store(&of->is_judged, 0);
-	backtrace(&frame, 1); /* loads what it needs, as a handler cannot */
+	backtrace(&frame, 1); /* the first call loads libraries, which a handler must not do */
 	journal = of;
 	state.is_watched = 1;
 	state.refusals = refusals;

@@ -1,6 +1,6 @@
 #include "tracer/device/launch.h"
 
-/* A list's arguments one by one, groups in place. @return behind the last */
+/* Flatten the arguments of a list, with groups expanded in place. @return end of the arguments */
 #define LIST_BUFFER(element, name) *to++ = (struct device_arg){ .buffer = a->name.buffer };
 #define LIST_VALUE(element, name) *to++ = (struct device_arg){ .value = &a->name, .bytes = sizeof(a->name) };
 #define LIST_GROUP(list, name) to = list_##list(&a->name, to);
@@ -13,7 +13,7 @@
 KERNEL_GROUPS(LIST)
 KERNEL_LISTS(LIST)
 
-/* How many they are. */
+/* Number of arguments in a list. */
 #define FLAT_GROUP(list, name) LAUNCH_COUNT_##list
 #define LAUNCH_FUNCTION(name, list) \
 	int launch_##name(struct device *dev, size_t n_items, const struct list##_launch *a) \

@@ -1,33 +1,34 @@
 /*
- * Kernels are launched here, with arguments by name and type: for each kernel a function launch_NAME(device, work
- * items, arguments).
+ * Launching kernels with arguments checked by name and type. Each kernel has a function launch_NAME(device, work items,
+ * arguments).
  *
  *     err = launch_credit(dev, n, LAUNCH(credit, .paths = paths, .radiance = radiance, .n = n, .shaded = shaded));
  *
- * An argument of another type does not compile, nor does a missing, a superfluous or a repeated one.
+ * An argument of the wrong type does not compile; neither does a missing, superfluous or repeated one.
  */
 #pragma once
 
 #include "kernels/kernels.h"
 #include "tracer/device/device.h"
 
-/* A buffer of elements; all zero: none yet. */
+/* A buffer of elements. All zero: not allocated yet. */
 #define LAUNCH_BUFFER(word) \
 	union buffer_##word { \
 		struct device_buffer *buffer; \
-		const element_##word *element; /* for its type alone */ \
+		const element_##word *element; /* only for its type */ \
 	};
 KERNEL_STRUCTS(LAUNCH_BUFFER)
 LAUNCH_BUFFER(uint)
 LAUNCH_BUFFER(half)
 LAUNCH_BUFFER(float)
 
-/* Make a buffer (an lvalue) hold at least `count` elements, and fill it. As device_reserve and device_write. */
+/* Make a buffer (an lvalue) hold at least `count` elements; upload also fills it. As device_reserve and
+ * device_upload. */
 #define launch_reserve(dev, of, count) device_reserve(dev, &(of).buffer, (size_t)(count) * sizeof(*(of).element))
 #define launch_upload(dev, of, data, count) \
 	((void)sizeof((of).element = (data)), device_upload(dev, &(of).buffer, data, (size_t)(count) * sizeof(*(of).element)))
 
-/* struct NAME_launch: what the host sets of a list of kernels/kernels.h. */
+/* struct NAME_launch: the arguments that the host sets, for each list of kernels/kernels.h. */
 #define LAUNCH_FIELD_BUFFER(element, name) union buffer_##element name;
 #define LAUNCH_FIELD_VALUE(element, name) element_##element name;
 #define LAUNCH_FIELD_GROUP(list, name) struct list##_launch name;
@@ -41,7 +42,7 @@ LAUNCH_BUFFER(float)
 KERNEL_GROUPS(LAUNCH_STRUCT)
 KERNEL_LISTS(LAUNCH_STRUCT)
 
-/* A list's arguments, by name and all of them: as many initialisers as fields, and none twice
+/* The arguments of a list, by name. Checks that all are given: as many initialisers as fields, none twice
  * (-Werror=override-init). */
 #define LAUNCH(list, ...) \
 	(&(const struct list##_launch){ __VA_ARGS__ } + 0 * LAUNCH_CHECK(list, LAUNCH_COUNT(__VA_ARGS__)))
@@ -56,10 +57,10 @@ KERNEL_LISTS(LAUNCH_STRUCT)
 	count
 
 /**
- * Queue a kernel; kernels of a device run one after the other, in the order queued.
+ * Queue a kernel. Kernels of a device run one at a time, in the order queued.
  * @param n_items  work items; 0: nothing is queued
  * @param a        copied
- * @return 0, ERR_MEMORY, or ERR_SYSTEM (reported: kernel, OpenCL's error by name)
+ * @return 0, ERR_MEMORY, or ERR_SYSTEM (reported with the kernel and the OpenCL error)
  */
 #define LAUNCH_DECLARE(name, list) int launch_##name(struct device *dev, size_t n_items, const struct list##_launch *a);
 KERNELS(LAUNCH_DECLARE)

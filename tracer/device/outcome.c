@@ -11,17 +11,17 @@
 #include "base/kept.h"
 #include "kernels/embed.h"
 
-/* To be raised when a check looks at something else, or struct outcome changes. */
+/* Raise when a check tests something else, or when struct outcome changes. */
 #define OUTCOME_VERSION 6
 
-/* Two hashes that have nothing in common. */
+/* Update two independent hashes. */
 static void mix(uint64_t key[2], const char *text)
 {
 	key[0] = XXH3_64bits_withSeed(text, strlen(text) + 1, key[0]);
 	key[1] = XXH64(text, strlen(text) + 1, key[1]);
 }
 
-/* A device's file, by its name, and the key that its content must have. @return 0: the path is too long */
+/* Make the path of a device's file, and the key that its content must have. @return 0: the path is too long */
 static int name_file(const char *folder, const struct device_description *device, char path[PATH_MAX], uint64_t key[2])
 {
 	uint64_t name;
@@ -103,7 +103,7 @@ const char *outcome_words(const struct outcome_family *family, char *text, size_
 
 /* --- Faults of a run --------------------------------------------------------------------------------------------- */
 
-/* Add a run's faults of a device to what is known of it. @return how many they are */
+/* Add a run's faults of a device to its outcome. @return number of faults */
 static size_t add_faults(const struct outcome_run *run, const struct device_description *device, int only_builds,
                          struct outcome *outcome)
 {
@@ -122,7 +122,8 @@ static size_t add_faults(const struct outcome_run *run, const struct device_desc
 	return n;
 }
 
-/* What a folder tells; all untried: nothing. Packets are for CPUs: elsewhere no run falls back to them. */
+/* Read the outcome kept in a folder; all families are untried if there is none. Packets are for CPUs: on other devices
+ * no run falls back to them. */
 static struct outcome known_of(const struct device_description *device, const char *folder)
 {
 	struct outcome outcome;
@@ -183,7 +184,7 @@ void outcome_confirm(struct device *dev, const char *folder, const struct outcom
 
 /* --- The choice -------------------------------------------------------------------------------------------------- */
 
-/* Nothing is left. One line names each family and what is wrong with it. */
+/* Report that no family is left. One line names each family and what is wrong with it. */
 static int refuse(const struct device *dev, const struct outcome *outcome)
 {
 	char text[160], all[N_DEVICE_FAMILIES * 180] = "";

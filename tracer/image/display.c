@@ -18,11 +18,11 @@
 #define PNG_LEVEL 6
 #define JPEG_QUALITY 95
 
-/* 255 sRGB(y) of every half, before the dither: of linear light, and of display numbers. */
+/* 255 sRGB(y) of every half before dithering, once for linear light and once for display-referred values. */
 struct display {
 	float linear[N_HALVES], shown[N_HALVES];
-	float white;  /* before exposure */
-	float dither; /* how far it moves a code at most, times 2 */
+	float white;  /* white point before exposure */
+	float dither; /* twice the largest amount that it moves a code by */
 };
 
 enum display_kind display_kind_of(const char *path)
@@ -57,7 +57,7 @@ static float code_of(const struct display_options *options, float linear)
 	const float white = options->white, m = (white - KNEE) / (1 - KNEE);
 	float y = linear * exp2f(options->exposure), t;
 
-	if (!(y > 0)) /* NaN is black */
+	if (!(y > 0)) /* NaN becomes black */
 		return 0;
 	t = (y - KNEE) / (white - KNEE);
 	if (t >= 1)
@@ -92,7 +92,7 @@ void display_destroy(struct display **display)
 
 /* --- Codes ------------------------------------------------------------------------------------------------------- */
 
-/* Bayer's matrix of 8 x 8: the bits of x ^ y and of y, interleaved from the last on. In 0 .. 63 */
+/* Bayer's 8 x 8 matrix: the bits of x ^ y and of y, interleaved in reverse order. In 0 .. 63 */
 static uint32_t bayer(uint32_t x, uint32_t y)
 {
 	uint32_t place = 0;
@@ -163,7 +163,7 @@ int display_save(const struct oiio_pixels *pixels, const struct oiio_coding *cod
 	if (!err)
 		err = part_open(&file, path);
 	if (!err) {
-		fwrite(bytes, 1, n_bytes, file.stream); /* part_close sees whether it failed */
+		fwrite(bytes, 1, n_bytes, file.stream); /* part_close checks for failure */
 		err = part_close(&file, 0);
 	}
 	free(bytes);

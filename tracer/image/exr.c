@@ -1,4 +1,5 @@
-/* struct image to and from OpenEXR files, by OpenEXRCore (written against 3.1.5; comments name its traps). */
+/* Reading and writing struct image as OpenEXR files, with OpenEXRCore (written against 3.1.5; comments name its
+ * pitfalls). */
 #define IMATH_HALF_NO_LOOKUP_TABLE
 #include <errno.h>
 #include <half.h>
@@ -35,7 +36,7 @@ static exr_context_initializer_t context_setup(void)
 	return setup;
 }
 
-/* Why a call failed. */
+/* Reason why a call failed. */
 static const char *reason(exr_result_t rc)
 {
 	return exr_said[0] ? exr_said : exr_get_default_error_message(rc);
@@ -43,7 +44,7 @@ static const char *reason(exr_result_t rc)
 
 /* --- Attributes -------------------------------------------------------------------------------------------------- */
 
-/* Attributes of the standard that hold a matrix; in struct image they are 16 numbers as text, in file order. */
+/* Is this a standard attribute with a matrix? In struct image its text is 16 numbers in file order. */
 static int is_matrix(const char *name)
 {
 	return strcmp(name, "worldToCamera") == 0 || strcmp(name, "worldToNDC") == 0;
@@ -88,7 +89,8 @@ static int read_attributes(exr_context_t file, struct image *img)
 
 		if (exr_get_attribute_by_index(file, 0, EXR_ATTR_LIST_FILE_ORDER, i, &a) != EXR_ERR_SUCCESS)
 			continue;
-		if (a->type == EXR_ATTR_STRING && strcmp(a->name, "type") == 0) /* the part's, which a writer sets by itself */
+		if (a->type == EXR_ATTR_STRING && strcmp(a->name, "type") == 0) /* the part's type, which the writer
+		                                                                 * sets automatically */
 			continue;
 		if (a->type == EXR_ATTR_STRING) {
 			rc = image_set_attribute(img, a->name, "%.*s", (int)a->string->length, a->string->str);
@@ -206,7 +208,7 @@ int image_write_exr(const struct image *img, const char *path)
 
 /* --- Reading ----------------------------------------------------------------------------------------------------- */
 
-/* Read size and channels; refuse what struct image cannot hold. */
+/* Read size and channels; reject files that struct image cannot represent. */
 static int read_layout(exr_context_t file, struct image *img, const char *path, int32_t *y_first)
 {
 	const exr_attr_chlist_t *channels;
@@ -241,7 +243,7 @@ static int read_layout(exr_context_t file, struct image *img, const char *path, 
 	return 0;
 }
 
-/* The pipeline does not turn unsigned integers into floats. */
+/* Convert unsigned integers to floats, which the pipeline does not do. */
 static void floats_from_uints(float *values, size_t n)
 {
 	for (size_t i = 0; i < n; i++) {
@@ -293,7 +295,7 @@ static exr_result_t read_chunk(exr_context_t file, const struct image *img, exr_
 
 static exr_result_t read_chunks(exr_context_t file, const struct image *img, int32_t y_first)
 {
-	/* OpenEXR 3.4 initializes its size alone, which GCC warns about. */
+	/* OpenEXR 3.4's initializer sets only the size, which GCC warns about. */
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 	exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
@@ -355,7 +357,7 @@ int image_exr_text(const char *path, const char *attribute, char *text, size_t s
 	return is_there;
 }
 
-/* Where the data lies, for place.h. @return 0 or ERR_SYSTEM (reported) */
+/* Read the windows for place.h. @return 0 or ERR_SYSTEM (reported) */
 static int read_windows(exr_context_t file, struct image *img)
 {
 	exr_attr_box2i_t data, display;

@@ -28,7 +28,7 @@ static void flush(struct exr_out *out)
 	out->n = 0;
 }
 
-/* OpenEXRCore's exr_write_func_ptr_t. */
+/* Write function of OpenEXRCore (exr_write_func_ptr_t). */
 static int64_t take(exr_const_context_t context, void *user, const void *buffer, uint64_t n, uint64_t at,
                     exr_stream_error_func_ptr_t fail)
 {

@@ -1,5 +1,5 @@
 /*
- * Where OpenEXRCore writes a file to: the library writes each chunk in five pieces, which go to the system together.
+ * A buffered output file for OpenEXRCore, which writes each chunk in five pieces. They are combined into larger writes.
  */
 #pragma once
 
@@ -11,14 +11,14 @@
 struct exr_out {
 	int file;
 	int reason; /* errno of the first failure; 0: none */
-	uint64_t at; /* where in the file `bytes` belong */
+	uint64_t at; /* offset of `bytes` in the file */
 	size_t n;
 	unsigned char bytes[EXR_OUT_BYTES];
 };
 
-/** Create a file for `setup`, which exr_start_write gets. out: kept until exr_out_close. @return 0, or -1: out->reason
- * says why not */
+/** Create a file and set its functions in `setup`, for exr_start_write. out: kept until exr_out_close. @return 0 or -1
+ * (out->reason is set) */
 int exr_out_open(struct exr_out *out, const char *path, exr_context_initializer_t *setup);
 
-/** After exr_finish: all is written, or out->reason says why not. @return 0 or -1 */
+/** Write the rest and close the file. Call after exr_finish. @return 0 or -1 (out->reason is set) */
 int exr_out_close(struct exr_out *out);

@@ -12,10 +12,10 @@
 #include "base/optimize.h"
 
 /*
- * How often symbols come, as far as their codes go: a difference of 0 stands at 128, and most matches are as short or
- * as long as can be. With one table for all chunks the frames of twelve programs take 3 % more bytes than at ISA-L's
- * level 1, which makes a table for each, and less time. Level 1 of ISA-L 2.30 also made other bytes of the same rows,
- * about once in 18,000 chunks.
+ * Huffman codes from assumed symbol frequencies: a difference of 0 is byte 128, and most matches have the shortest or
+ * the longest length. With one table for all chunks, the frames of twelve programs take 3 % more bytes than with
+ * ISA-L's level 1, which makes a table for each chunk, and less time. Level 1 of ISA-L 2.30 also gave different bytes
+ * for the same rows, about once in 18,000 chunks.
  */
 static struct isal_hufftables codes;
 
@@ -38,13 +38,13 @@ static void make_codes(void)
 /* The two streams that a chunk is split into. */
 struct streams {
 	uint8_t *even, *odd;
-	uint8_t last_even, last_odd; /* the bytes before */
+	uint8_t last_even, last_odd; /* the previous byte of each stream */
 };
 
 #ifdef __x86_64__
 #define FOR_WIDTHS OPTIMIZE("O3") __attribute__((target_clones("avx2", "default")))
 #else
-#define FOR_WIDTHS /* vectors are part of the processor's own base */
+#define FOR_WIDTHS /* vectors are in the architecture's baseline */
 #endif
 
 /* Append pairs of bytes. */
@@ -79,7 +79,7 @@ static float value_at(const struct exr_plane *p, size_t at)
 	return p->halves ? imath_half_to_float(p->halves[at]) : p->floats[at];
 }
 
-/* Whether all these numbers are the first one. */
+/* Are all n values equal to the first? */
 static int is_constant(const struct exr_plane *p, size_t at, size_t n)
 {
 	const size_t bytes = p->halves ? sizeof(*p->halves) : sizeof(*p->floats);
@@ -88,7 +88,7 @@ static int is_constant(const struct exr_plane *p, size_t at, size_t n)
 	return memcmp(plane + at * bytes, plane + (at + 1) * bytes, (n - 1) * bytes) == 0;
 }
 
-/* One line as the file has it; `room` for those that have to be made. */
+/* One line in the file's format; `room` receives lines that have to be converted. */
 static const uint16_t *line_of(const struct exr_plane *p, size_t at, uint32_t width, uint16_t *room)
 {
 	if (p->halves && !p->full_float)
@@ -108,7 +108,7 @@ static const uint16_t *line_of(const struct exr_plane *p, size_t at, uint32_t wi
 
 /* --- Chunks ------------------------------------------------------------------------------------------------------ */
 
-/* What a chunk without change comes from; 0: there is change. */
+/* Hash of a chunk that has one value in each channel; 0: the values vary. */
 static uint64_t name_constant(const struct exr_rows *r)
 {
 	const size_t at = (size_t)r->first * r->width, n = (size_t)r->count * r->width;
@@ -125,7 +125,7 @@ static uint64_t name_constant(const struct exr_rows *r)
 	return name ? name : 1;
 }
 
-/* Make room for a chunk of so many bytes and a line of so many; and for the chunk packed. */
+/* Make room for a chunk of n bytes and a line of `line` bytes, and for the packed chunk. */
 static int reserve(struct exr_packer *packer, size_t n, size_t line)
 {
 	const size_t size = n + line;
@@ -150,7 +150,8 @@ static void split_rows(const struct exr_rows *r, struct streams *s, uint16_t *ro
 			split(s, line_of(&r->planes[i], (size_t)y * r->width, r->width, room), pairs_of(&r->planes[i], r->width));
 }
 
-/* Readers take a chunk of its raw size for raw bytes: one that does not shrink is stored. */
+/* Store a chunk uncompressed. Readers treat a chunk of its raw size as raw bytes, so a chunk that does not shrink is
+ * stored. */
 static size_t store(const struct exr_rows *r, uint8_t *out, uint16_t *room)
 {
 	uint8_t *at = out;
@@ -165,11 +166,11 @@ static size_t store(const struct exr_rows *r, uint8_t *out, uint16_t *room)
 	return (size_t)(at - out);
 }
 
-/* @return bytes, or 0: they would be no fewer */
+/* @return number of bytes; 0: deflating does not shrink the chunk */
 static size_t deflate_bytes(uint8_t *in, size_t n, uint8_t *out)
 {
 	static pthread_once_t once = PTHREAD_ONCE_INIT;
-	/* isal_deflate_stateless_init() leaves hist_bits as it is: any window, so other bytes */
+	/* isal_deflate_stateless_init() does not set hist_bits; an arbitrary window size gives other bytes */
 	struct isal_zstream z = { 0 };
 
 	pthread_once(&once, make_codes);
@@ -201,7 +202,7 @@ int exr_pack(struct exr_packer *packer, const struct exr_rows *r)
 	room = (uint16_t *)(void *)packer->bytes;
 	s.even = packer->bytes + line;
 	s.odd = s.even + n / 2;
-	s.last_even = 128; /* the first byte of all stands as it is */
+	s.last_even = 128; /* makes the difference of the very first byte the byte itself */
 	split_rows(r, &s, room);
 	s.odd[-(ptrdiff_t)(n / 2)] -= s.last_even; /* the odd bytes follow the even ones */
 	packer->n_packed = deflate_bytes(s.even - n / 2, n, packer->packed);

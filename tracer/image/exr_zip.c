@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Make a buffer of at least `size` bytes; its content is lost. */
+/* Make a buffer hold at least `size` bytes; its content is lost. */
 static int reserve(uint8_t **buffer, size_t *have, size_t size)
 {
 	if (*have >= size)

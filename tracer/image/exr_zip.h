@@ -1,6 +1,6 @@
 /*
- * Expanding OpenEXR's "ZIP" chunks by libdeflate, in place of OpenEXRCore's own step, which takes more than twice as
- * long. exr_pack.h tells what such a chunk holds.
+ * Decompression of OpenEXR's "ZIP" chunks with libdeflate. It replaces OpenEXRCore's own step, which takes more than
+ * twice as long. exr_pack.h describes the contents of such a chunk.
  */
 #pragma once
 
@@ -10,15 +10,16 @@
 
 struct libdeflate_decompressor;
 
-/* Lives as long as the pipeline that uses it. All zero at first. */
+/* Must outlive the pipeline that uses it. Initially all zero. */
 struct exr_zip {
 	struct libdeflate_decompressor *decompressor;
 	uint8_t *split; /* a chunk's rearranged bytes */
 	size_t split_size;
 };
 
-/** Let a decoding pipeline of a ZIP or ZIPS part, its routines chosen, expand with `zip`. */
+/** Make a decoding pipeline of a ZIP or ZIPS part decompress with `zip`. Call after the pipeline's routines have been
+ * chosen. */
 void exr_zip_decode_with(exr_decode_pipeline_t *decode, struct exr_zip *zip);
 
-/** Call it after the pipeline is destroyed. */
+/** Call after the pipeline has been destroyed. */
 void exr_zip_free(struct exr_zip *zip);

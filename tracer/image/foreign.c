@@ -18,11 +18,12 @@
 #include "base/err.h"
 #include "tracer/image/oiio.h"
 
-#define MOST_PIXELS ((uint64_t)1 << 28) /* as oiio_read has it */
-#define MOST_SECONDS 60                 /* of processor time, for the largest picture */
+#define MOST_PIXELS ((uint64_t)1 << 28) /* same limit as oiio_read */
+#define MOST_SECONDS 60                 /* most processor time for the largest picture */
 #define MOST_MEMORY ((rlim_t)1 << 33)
 
-/* A process that has OpenImageIO and no thread: it forks once for each picture. -1: not started */
+/* The server: a process with OpenImageIO loaded and a single thread, which forks once for each picture. -1: not
+ * started */
 static struct {
 	pthread_mutex_t lock;
 	int channel;
@@ -30,7 +31,7 @@ static struct {
 
 /* --- In the picture's process ------------------------------------------------------------------------------------ */
 
-/* What comes before a picture's planes. */
+/* Write the head, which precedes a picture's planes. */
 static void put_head(struct bytes *head, const struct image *img)
 {
 	bytes_put_u64(head, img->width);
@@ -54,7 +55,7 @@ static void limit(int what, rlim_t most)
 	setrlimit(what, &both);
 }
 
-/* The picture into a pipe: what reading it returned, the bytes of its head, the head, the planes. */
+/* Write the answer to a pipe: the result of reading, the size of the head, the head, the planes. */
 static void answer(const char *path, int pipe)
 {
 	const struct confine_file file = { path, CONFINE_READS };
@@ -67,7 +68,7 @@ static void answer(const char *path, int pipe)
 		return;
 	limit(RLIMIT_CPU, MOST_SECONDS);
 	limit(RLIMIT_CORE, 0);
-#ifndef __SANITIZE_ADDRESS__ /* which maps terabytes */
+#ifndef __SANITIZE_ADDRESS__ /* AddressSanitizer maps terabytes */
 	limit(RLIMIT_DATA, MOST_MEMORY);
 #endif
 	err = oiio_read(&img, path);
@@ -84,7 +85,7 @@ static void answer(const char *path, int pipe)
 
 /* --- In the server ----------------------------------------------------------------------------------------------- */
 
-/* The next request: a path, and the pipe that its picture goes to. @return 0: there will be none */
+/* Receive the next request: a path, and the pipe for its picture. @return 0: no more requests */
 static int take_request(int channel, char path[PATH_MAX], int *pipe)
 {
 	union {
@@ -112,7 +113,7 @@ static void serve(int channel)
 	char path[PATH_MAX];
 	int pipe;
 
-	/* Files of the command, pipes to its other children among them, are not kept open here. */
+	/* Close the command's files here, including pipes to its other children. */
 	dup2(channel, STDERR_FILENO + 1);
 	close_range(STDERR_FILENO + 2, ~0u, 0);
 	signal(SIGCHLD, SIG_IGN);
@@ -121,7 +122,8 @@ static void serve(int channel)
 	signal(SIGTERM, SIG_DFL);
 	while (take_request(STDERR_FILENO + 1, path, &pipe)) {
 		if (fork() == 0) {
-			prctl(PR_SET_PDEATHSIG, SIGKILL); /* the server goes with the command, whose end closes the channel */
+			prctl(PR_SET_PDEATHSIG, SIGKILL); /* the server ends with the command, whose end closes the
+			                                   * channel */
 			close(STDERR_FILENO + 1);
 			answer(path, pipe);
 			_exit(0);
@@ -133,7 +135,7 @@ static void serve(int channel)
 
 /* --- In the command ---------------------------------------------------------------------------------------------- */
 
-/* server.lock is held. @return 0 or ERR_SYSTEM (reported) */
+/* Start the server. server.lock is held. @return 0 or ERR_SYSTEM (reported) */
 static int start(void)
 {
 	int ends[2];
@@ -168,13 +170,13 @@ static int send_request(const char *path, int pipe)
 	return sendmsg(server.channel, &message, MSG_NOSIGNAL) == (ssize_t)text.iov_len ? 0 : -1;
 }
 
-/* Ask for a picture. @return 0 or ERR_SYSTEM (reported) */
+/* Request a picture. @return 0 or ERR_SYSTEM (reported) */
 static int request(const char *path, int pipe)
 {
 	int err = 0;
 
 	pthread_mutex_lock(&server.lock);
-	if (server.channel >= 0 && send_request(path, pipe)) { /* somebody ended it */
+	if (server.channel >= 0 && send_request(path, pipe)) { /* the server was killed */
 		close(server.channel);
 		server.channel = -1;
 		err = ERR_SYSTEM;
@@ -199,7 +201,7 @@ static const char *take_text(struct cursor *c)
 	return "";
 }
 
-/* An answer's picture; nothing in it is believed. @return 0, 1: it is not whole, or ERR_SYSTEM (reported) */
+/* Parse the picture of an answer, which is untrusted. @return 0; 1: it is incomplete; ERR_SYSTEM (reported) */
 static int take_picture(struct cursor *c, FILE *in, struct image *img)
 {
 	const uint64_t width = cursor_u64(c), height = cursor_u64(c), n_channels = cursor_u64(c);
@@ -236,7 +238,7 @@ static int take_picture(struct cursor *c, FILE *in, struct image *img)
 	return 0;
 }
 
-/* What comes out of the pipe. @return as foreign_read */
+/* Read an answer from the pipe. @return as foreign_read */
 static int take_answer(FILE *in, struct image *img, const char *path)
 {
 	struct cursor c = { 0 };

@@ -7,7 +7,7 @@
 
 #include "base/err.h"
 
-#define LITTLE_BYTES ((uint64_t)1 << 20) /* nobody minds */
+#define LITTLE_BYTES ((uint64_t)1 << 20) /* allocations below this are harmless */
 
 static uint32_t number(const uint8_t b[4], int big)
 {
@@ -39,7 +39,7 @@ static int png_fits(FILE *file, uint64_t file_bytes)
 	return 1;
 }
 
-/* A text up to its NUL; its first bytes. @return its bytes */
+/* Read a string up to its NUL and keep its first bytes. @return its length in bytes */
 static size_t take_text(FILE *file, char first[32])
 {
 	size_t n = 0;
@@ -51,7 +51,7 @@ static size_t take_text(FILE *file, char first[32])
 	return n;
 }
 
-/* The OpenEXR library takes values of these types without a look at their size, and goes on from there. */
+/* The OpenEXR library reads values of these types without checking their size, and continues after what it read. */
 static int type_has_size(const char *type, uint32_t size)
 {
 	static const struct {
@@ -72,8 +72,8 @@ static int type_has_size(const char *type, uint32_t size)
 	return 1;
 }
 
-/* OpenEXR file layout: after magic number and version, headers of attributes (name, type, size, value), an empty name
- * at their end. */
+/* OpenEXR file layout: after magic number and version come headers. Each is a list of attributes (name, type, size,
+ * value) that ends with an empty name. */
 static int exr_fits(FILE *file, uint64_t file_bytes, int parts)
 {
 	uint8_t size[4];
@@ -98,7 +98,7 @@ static int exr_fits(FILE *file, uint64_t file_bytes, int parts)
 	}
 }
 
-/* SMPTE 268M: the bytes of the user's data stand at 32. */
+/* SMPTE 268M: the size of the user data is at offset 32. */
 static int dpx_fits(FILE *file, uint64_t file_bytes, int big)
 {
 	uint8_t size[4];
@@ -107,8 +107,8 @@ static int dpx_fits(FILE *file, uint64_t file_bytes, int big)
 	       fits(file, file_bytes, number(size, big));
 }
 
-/* GIF89a, sec. 18: width and height of the screen stand at 6. LZW's longest code of 12 bits stands for less than 4096
- * pixels. */
+/* GIF89a, sec. 18: the width and height of the screen are at offset 6. The longest LZW code, 12 bits, represents less
+ * than 4096 pixels. */
 static int gif_fits(FILE *file, uint64_t file_bytes)
 {
 	uint8_t size[4];
@@ -134,7 +134,7 @@ int heads_check(const char *path)
 			good = exr_fits(file, (uint64_t)info.st_size, head[5] >> 4 & 1);
 		else if (memcmp(head, "SDPX", 4) == 0 || memcmp(head, "XPDS", 4) == 0)
 			good = dpx_fits(file, (uint64_t)info.st_size, head[0] == 'S');
-		else if (memcmp(head, "GIF", 3) == 0) /* giflib looks at no more */
+		else if (memcmp(head, "GIF", 3) == 0) /* giflib checks no more bytes */
 			good = gif_fits(file, (uint64_t)info.st_size);
 		else
 			icon = memcmp(head, "\0\0\1", 4) == 0;

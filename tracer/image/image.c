@@ -39,7 +39,7 @@ static void *no_memory(const struct image *img, const char *name)
 	return NULL;
 }
 
-/* Of a plane. */
+/* Number of pixels in a plane. */
 static size_t pixel_count(const struct image *img)
 {
 	size_t n = (size_t)img->width * (img->packers ? PACK_ROWS : img->height);
@@ -47,7 +47,7 @@ static size_t pixel_count(const struct image *img)
 	return n ? n : 1;
 }
 
-/* Room for one more channel, all zero; it counts once its plane is there. */
+/* Make room for another channel, all zero. The caller counts it once it has a plane. */
 static struct image_channel *next_channel(struct image *img, const char *name, int full_float)
 {
 	struct image_channel *channel;
@@ -92,7 +92,7 @@ static size_t row_bytes(const struct image *img, size_t i)
 	return img->width * (img->channels[i].halves ? sizeof(uint16_t) : sizeof(float));
 }
 
-/* n of some rows, the first `skip` left out, to row `at` of the image's planes. */
+/* Copy n rows of `planes`, after the first `skip`, to row `at` of the image's planes. */
 static void keep_rows(struct image *img, const void *const *planes, uint32_t skip, uint32_t n, uint32_t at)
 {
 	for (size_t i = 0; i < img->n_channels && n; i++) {
@@ -104,7 +104,7 @@ static void keep_rows(struct image *img, const void *const *planes, uint32_t ski
 	}
 }
 
-/* Pack whole chunks of the rows: what was left of those before is filled up first. */
+/* Pack rows in whole chunks, after completing the chunk that earlier rows left unfinished. */
 static int pack_rows(struct image *img, const void *const *planes, uint32_t n)
 {
 	const uint32_t row = img->taken, end = row + n, left = row - img->first, lacks = left ? PACK_ROWS - left : 0;

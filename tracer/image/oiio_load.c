@@ -1,6 +1,6 @@
 /*
- * OpenImageIO and the hundreds of libraries behind it, loaded when the first picture needs them: linked with the
- * command, they are most of the time that a short run takes. The bridge itself is oiio.cpp, in relume-oiio.so.
+ * Loads OpenImageIO and its hundreds of dependencies when the first picture needs them. If they were linked with the
+ * command, loading them would be most of the time of a short run. The bridge itself is oiio.cpp, in relume-oiio.so.
  */
 #include "tracer/image/oiio.h"
 
@@ -13,7 +13,7 @@
 
 static struct {
 	pthread_once_t once;
-	int whole; /* all functions are there; else the reason was reported */
+	int whole; /* 1: all functions were found; 0: the reason was reported */
 	__typeof__(oiio_fork) *fork;
 	__typeof__(oiio_read) *read;
 	__typeof__(oiio_encode) *encode;

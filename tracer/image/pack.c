@@ -10,14 +10,14 @@
 
 #define MAX_HELPERS 63
 
-/* What the threads of one call share. */
+/* State shared by the threads of one call. */
 struct work {
 	struct pack *pack;
 	const struct image *img;
 	struct exr_plane *planes;
-	uint32_t first;   /* row that planes begin with */
-	atomic_uint next; /* chunk that nobody packs yet */
-	uint32_t last;    /* one behind */
+	uint32_t first;   /* first row in planes */
+	atomic_uint next; /* next chunk that no thread has taken */
+	uint32_t last;    /* end of the chunks, exclusive */
 	atomic_int failed;
 };
 

@@ -8,7 +8,7 @@
 
 #define MAX_PIXELS ((uint64_t)1 << 28)
 
-/* What two windows have in common along one axis: from, in the picture; at, in the data; how many. */
+/* Overlap of two windows along one axis: start in the picture, start in the data, and length. */
 struct span {
 	uint32_t from, at, n;
 };
