@@ -1,15 +1,15 @@
 /*
- * Lines as quads, where Mesa's llvmpipe puts them: of the line's width, cut at their ends by the diamond-exit rule
- * (GL 2.1 sec. 3.4), under multisampling as rectangles along them, or smooth; whole or in the dashes of a stipple
- * (sec. 3.4.2).
+ * Lines as quads, at the positions of Mesa's llvmpipe. They have the line's width, with ends by the diamond-exit rule
+ * (GL 2.1 sec. 3.4); with multisampling, they are rectangles along the line; they may be smooth. A stipple (sec. 3.4.2)
+ * divides them into dashes.
  */
 #pragma once
 
 #include "tracer/frame/expand_end.h"
 
 /**
- * Project a line that has been clipped, and add what its stipple leaves. in->dashed moves on by its length.
- * @param a, b    its ends; changed
+ * Project a clipped line and add the quads of its visible dashes. Advances in->dashed by its length.
+ * @param a, b ends of the line; changed
  * @param offset  added to the depth of both ends
  * @return 0 or ERR_SYSTEM (reported)
  */

@@ -1,6 +1,6 @@
 /*
- * Points as squares (GL 2.1 sec. 3.3), also under multisampling, and bitmaps and pixel rectangles (sec. 3.6.4, 3.7),
- * where Mesa's llvmpipe puts them.
+ * Points as squares (GL 2.1 sec. 3.3), with or without multisampling, and bitmaps and pixel rectangles (sec. 3.6.4,
+ * 3.7), at the positions of Mesa's llvmpipe.
  */
 #pragma once
 
@@ -9,7 +9,7 @@
 /** Add a point if its centre is in the view. @param offset  added to its depth. @return 0 or ERR_SYSTEM (reported) */
 int expand_point(const struct expand_input *in, struct expanded *out, struct expand_end e, float offset, uint32_t draw);
 
-/** As expand_point for a polygon's corner, which has been clipped with its polygon. */
+/** The same for a polygon's corner, which has been clipped with its polygon. */
 int expand_corner(const struct expand_input *in, struct expanded *out, struct expand_end e, float offset,
                   uint32_t draw);
 

@@ -1,20 +1,20 @@
 /*
- * Frames on CPUs that are like plain ones (plain.h) but for their draws: of several segments, blended, tested for
- * alpha, not tested for depth. The camera looks at all segments first; then two kernels draw all fragments of a pixel
- * one over the other (kernels/frame/layered.cl). Where these are more than PLAIN_LAYERS, both do so in rounds. Pictures
- * as GL's frame buffer has them are made in the same way.
+ * Frames on CPUs that are like plain ones (plain.h) except for their draws: several segments, blending, alpha tests, no
+ * depth tests. Camera rays of all segments are traced first. Then two kernels draw all fragments of a pixel over each
+ * other (kernels/frame/layered.cl). If a pixel has more than PLAIN_LAYERS fragments, both steps are repeated in rounds.
+ * Pictures of GL's frame buffer are made in the same way.
  */
 #pragma once
 
 #include "tracer/frame/frame.h"
 
-/** Whether this pass of the frame is so. Needs job->prepared. */
+/** 1 if this pass of the frame can be drawn in this way. Needs job->prepared. */
 int layered_suits(const struct job *job);
 
-/** Whether it is so, and a pixel may have many fragments. */
+/** 1 if it can, and a pixel may have many fragments. */
 int layered_has_columns(const struct job *job);
 
-/** So many pixels a band may have. */
+/** Most pixels in a band. */
 uint32_t layered_most_pixels(void);
 
 /** Draw the band into job->image or job->picture. @return 0 or ERR_SYSTEM (reported) */

@@ -1,9 +1,9 @@
-/* How noisy the mean of a frame's samples is, as its sums say (kernels/frame/compose.h, add_pass). */
+/* Measures the noise in the mean of a frame's samples, from their sums (kernels/frame/compose.h, add_pass). */
 #pragma once
 
 #include "tracer/frame/frame.h"
 
-/* What was known when it was measured last; all zero: nothing. */
+/* State of the last measurement. All zero: not measured yet. */
 struct noise {
 	float *sums;    /* brightness, [pixels] */
 	uint32_t passes;
@@ -12,11 +12,11 @@ struct noise {
 void noise_free(struct noise *noise);
 
 /**
- * Measure. The samples since the last time against those before: the standard error of a pixel's brightness, the root
- * mean square of all pixels, over the mean brightness of the picture. Samples lie more evenly than chance would have
- * them, so this is rather too much.
- * @param passes  that were added up; more than the last time
- * @param out     receives it; FLT_MAX: the first time
+ * Measure the noise by comparing the samples since the last measurement with those before. The result is the standard
+ * error of a pixel's brightness, as the root mean square over all pixels, divided by the mean brightness of the
+ * picture. Samples are spread more evenly than random ones, so this is an overestimate.
+ * @param passes  number of passes summed so far; more than the last time
+ * @param out     receives the noise; FLT_MAX at the first measurement
  * @return 0, ERR_MEMORY or ERR_SYSTEM (reported)
  */
 int noise_measure(struct job *job, struct noise *noise, uint32_t passes, float *out);

@@ -1,22 +1,22 @@
 /*
- * Light by way of mirrors and glass onto matte surfaces: caustics, as channels caustics.R, G and B.
+ * Caustics: light that reaches matte surfaces through mirrors and glass, as channels caustics.R, G and B.
  *
- * Photons go from each light to each thing that mirrors or bends, many passes of them. A pixel's point gathers those
- * that came to within a radius, which shrinks from pass to pass, and passes are averaged: the mean tends to the truth
- * (C. Knaus and M. Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", 2011). OpenGL's lights need not
- * weaken with distance, so a photon is worth what makes an open way as bright as OpenGL has it: colour x attenuation x
- * length^2, for each steradian.
+ * In many passes, photons are sent from each light to each object that reflects or refracts. The point seen by a pixel
+ * gathers those that land within a radius, which shrinks from pass to pass. The average over passes converges to the
+ * true value (C. Knaus and M. Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", 2011). OpenGL's lights
+ * need not weaken with distance, so photons are weighted to make an unobstructed path as bright as in OpenGL: colour x
+ * attenuation x length^2 per steradian.
  *
- * Left out: light that a matte surface scattered before, that of surfaces that shine, and alpha and blending on the
- * way.
+ * Not included: light scattered by a matte surface before, light from emissive surfaces, and alpha and blending along
+ * the path.
  */
 #pragma once
 
 #include "tracer/frame/frame.h"
 
 /**
- * Add the channels to a frame that was rendered whole and is still on the device.
- * @param img  with channels N, P and albedo
+ * Add the channels to a completely rendered frame that is still on the device.
+ * @param img  image with channels N, P and albedo
  * @return 0, ERR_MEMORY or ERR_SYSTEM (reported)
  */
 int photons_add(struct job *job, struct image *img);

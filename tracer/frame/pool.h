@@ -1,6 +1,6 @@
 /*
- * A device buffer that keeps arrays by content (vertex arrays, indices, texels) as long as they fit. A frame copies
- * only what the frame before did not have.
+ * A device buffer that caches arrays by content (vertex arrays, indices, texels) as long as they fit. A frame uploads
+ * only arrays that the previous frames did not have.
  */
 #pragma once
 
@@ -22,11 +22,11 @@ struct pool {
 	size_t n_entries, n_slots;
 };
 
-/* One thing that the frame needs. */
+/* An array that the frame needs. */
 struct pool_item {
 	uint64_t hash[2];
 	size_t words;
-	const void *object; /* handed to fill */
+	const void *object; /* passed to pool_fill */
 	uint32_t place;     /* receives the index of its first word */
 };
 
@@ -34,7 +34,7 @@ struct pool_item {
 typedef void pool_fill(const void *object, uint32_t *words);
 
 /**
- * Bring all of a frame's items into the buffer. Items placed for earlier frames may go.
+ * Put all of a frame's items into the buffer. Items of earlier frames may be evicted.
  * @return 0, ERR_MEMORY or ERR_SYSTEM (reported)
  */
 int pool_place(struct pool *pool, struct device *dev, struct pool_item *items, size_t n, pool_fill *fill);

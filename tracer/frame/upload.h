@@ -1,14 +1,15 @@
-/* What of a scene the device needs: meshes, state, textures, trees. Functions return 0 or ERR_SYSTEM (reported). */
+/* Uploads a scene's meshes, state, textures and trees to the device. Functions return 0 or ERR_SYSTEM (reported). */
 #pragma once
 
 #include "tracer/frame/frame.h"
 
-/** Attributes and indices of the frame's meshes into the pools, and their places into the geometries. */
+/** Upload attributes or indices of the frame's meshes to the pools, and set their offsets in the geometries. */
 int upload_attributes(struct job *job);
 int upload_indices(struct job *job);
 
-/** Materials, lights, texture units and textures, current values, stipples, programs. */
+/** Upload materials, lights, texture units, textures, current values, stipples and programs. */
 int upload_state(struct job *job);
 
-/** What accel_build_frame made and the device's kernels walk; the trees of meshes only where they changed. */
+/** Upload the trees of accel_build_frame that the device's kernels traverse. Mesh trees are uploaded only if they
+ * changed. */
 int upload_trees(struct job *job);
