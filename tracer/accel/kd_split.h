@@ -12,7 +12,7 @@
 #include "tracer/accel/sbvh_split.h"
 
 #define KD_BINS 32
-#define KD_FEW 16 /* most triangles for which every end is tried */
+#define KD_FEW 16 /* with at most this many triangles, every end is tried */
 
 /* Areas of a cell's halves as a plane moves across an axis: end + along * share of the width. */
 struct kd_areas {

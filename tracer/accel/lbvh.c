@@ -29,8 +29,7 @@ struct place {
 	uint32_t item;
 };
 
-/* A subtree that one thread fills: items first .. first + count - 1, and nodes from `first` on, of which `used` are
- * filled. */
+/* A subtree that one thread fills: items first .. first + count - 1, and `used` nodes from `first` on. */
 struct part {
 	uint32_t first, count, depth;
 	uint32_t used, place; /* place: final position of its nodes */

@@ -21,7 +21,7 @@ struct tree {
  * Refit a tree to triangles that have moved.
  *
  * @param old   tree over the same number of triangles
- * @param most  highest SAH cost (bvh_cost) at which the tree is worth keeping
+ * @param most  highest SAH cost (bvh_cost) of a tree worth keeping
  * @param out   receives the tree; free with tree_free, also after an error; empty if it would cost more
  * @return 0 or ERR_SYSTEM (reported)
  */

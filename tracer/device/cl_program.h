@@ -16,8 +16,7 @@ struct fault_place;
 struct cl_keeping {
 	char folder[PATH_MAX - 96]; /* "": programs are not kept */
 	unsigned found;             /* programs loaded from the folder */
-	int tells;                  /* 1: print one line if compiling takes long, even without a terminal; 2: the line
-	                             * was printed */
+	int tells;                  /* 1: print a line if compiling takes long, even without a terminal; 2: printed */
 };
 
 int cl_program_is_pocl(cl_device_id device);

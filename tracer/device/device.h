@@ -204,8 +204,7 @@ int device_finish(struct device *dev);
 
 /* Time spent in a kernel, or in copies. */
 struct device_spent {
-	double wall_s, cpu_s; /* cpu_s: processor time of all threads of this process; meaningless unless the device is
-	                       * a CPU */
+	double wall_s, cpu_s; /* cpu_s: of all threads of this process; meaningless unless the device is a CPU */
 	uint64_t count, amount; /* launches and work items, or copies and bytes */
 };
 

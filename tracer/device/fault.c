@@ -220,8 +220,7 @@ extern const char __ehdr_start[] __attribute__((visibility("hidden"))), etext[] 
 __attribute__((noinline)) static int is_own_thread(void)
 {
 	void *frames[MOST_FRAMES];
-	const int n = backtrace(frames, MOST_FRAMES), own = 2; /* the innermost frames are this function and the
-	                                                        * handler */
+	const int n = backtrace(frames, MOST_FRAMES), own = 2; /* the innermost are this function and the handler */
 
 	for (int i = own; i < n; i++)
 		if ((const char *)frames[i] >= __ehdr_start && (const char *)frames[i] < etext)
@@ -237,16 +236,14 @@ static void take_signal(int number, siginfo_t *info, void *context)
 
 	(void)context;
 	atomic_store(&journal->is_judged, 1);
-	for (size_t i = 0; i < N_SIGNALS; i++) /* a signal sent by another process need not end this one in the driver's
-	                                        * handler */
+	for (size_t i = 0; i < N_SIGNALS; i++) /* a driver's handler might not end the process for a sent signal */
 		sigaction(signals[i], was_sent ? &by_default : &state.before[i], NULL);
 	if (is_ours && !place && !is_own_thread())
 		place = find_busy(1);
 	if (is_ours && place)
 		note(place, FAULT_SIGNAL, number);
 	if (was_sent)
-		raise(number); /* delivered once this handler returns; other signals recur when the instruction is
-		                * retried */
+		raise(number); /* delivered once this handler returns; other signals recur */
 }
 
 static void at_exit(void)

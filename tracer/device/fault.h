@@ -52,12 +52,11 @@ struct fault_place {
 	const char *_Atomic program; /* program being built; NULL: none */
 	atomic_uint calls;    /* odd: a thread is in the driver */
 	atomic_uint launched; /* launches that have not been waited for */
-	atomic_uint n_new;    /* of these, kernels never waited for before: the driver may compile them at their first
-	                       * launch */
+	atomic_uint n_new;    /* of these, kernels never waited for so far: the driver may still be compiling them */
 	enum kernel new[FAULT_NEW];
 	unsigned char known[N_KERNELS];
-	/* Used by fault_look: */
-	unsigned seen; /* calls */
+	/* For fault_look: */
+	unsigned seen; /* `calls` at the last look */
 	double age_s, begun_cpu_s;
 };
 

@@ -23,8 +23,7 @@ enum outcome_state {
 
 struct outcome_family {
 	uint32_t state;    /* enum outcome_state */
-	char where[120]; /* the scenes that are wrong ("mirror, glass") or the failure ("SIGABRT in camera_packet"); ""
-	                  * if all is right */
+	char where[120]; /* wrong scenes ("mirror, glass") or the failure ("SIGABRT in camera_packet"); "": all right */
 	double compile_s;  /* time to compile all its kernels without a cache */
 	double frame_s;    /* time of a frame, once all is compiled; 0: not measured */
 };

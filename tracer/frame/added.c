@@ -3,9 +3,9 @@
 #include <string.h>
 
 #define HALF_ONE 0x3c00u
-#define ROW 4096u /* pixels whose bits are kept at a time */
+#define ROW 4096u /* pixels whose bits are computed at a time */
 
-/* A channel group, its planes, and its number where nothing is added, but for the sign. */
+/* A channel group, its planes, and the magnitude of its values if nothing is added. */
 static const struct part {
 	const char *group;
 	uint32_t plane, nothing;
@@ -44,7 +44,7 @@ int added_needs(const struct job *job, const char *group)
 	return 0;
 }
 
-/* Mark the pixels of a row that show a part. @return how many */
+/* Mark the pixels of a row that show a part. @return their number */
 static uint32_t mark(const struct part *part, const uint16_t *const planes[3], size_t n, uint8_t *changed)
 {
 	const uint16_t *r = planes[0], *g = planes[1], *b = planes[2];
@@ -65,7 +65,7 @@ void added_take(struct job *job, const struct compose_request *request, const ui
 
 	if (!added_counts(job))
 		return;
-	if (job->row_first + job->n_rows == job->height) /* bands come from the top */
+	if (job->row_first + job->n_rows == job->height) /* the topmost band is drawn first */
 		memset(added, 0, sizeof(*added));
 	for (uint32_t first = 0; first < job->n_pixels; first += ROW) {
 		const uint32_t n = job->n_pixels - first < ROW ? job->n_pixels - first : ROW;

@@ -13,7 +13,7 @@
 const char *const compose_groups[] = { "gl", "shadow", "relight", "reflect", "refract", "Z", "N", "P", "albedo", "id",
 	                               "layers", NULL };
 
-/* Every channel that there is: its group, where the kernel leaves it, and whether as floats. */
+/* All channels, with their group, the plane that the kernel writes them to, and whether it has floats. */
 static const struct channel {
 	const char *group, *name;
 	int full;
@@ -60,7 +60,7 @@ int compose_asks(const struct tracer_options *options, const char *group)
 	return has_group(options->mode == TRACER_NORMALS ? "Z,N,P,albedo,id" : options->aov, group);
 }
 
-/* Which planes are wanted, one behind the other; of a picture (job.picture) none. */
+/* Request the planes that are wanted, one after the other; none for a picture (job.picture). */
 static struct compose_request request_of(const struct job *job)
 {
 	const struct tracer_options *options = job->options;
@@ -97,7 +97,7 @@ static int run_compose(struct job *job, const struct compose_request *r)
 }
 
 /*
- * Eye space stands for the world. OpenEXR's worldToCamera is left-handed (+z forward); its worldToNDC has x and y in
+ * Eye space is used as world space. OpenEXR's worldToCamera is left-handed (+z forward); its worldToNDC has x and y in
  * [0,1] with y down. Both are for row vectors: their rows are our columns.
  */
 static int describe_camera(const struct job *job, struct image *img)
@@ -132,9 +132,9 @@ static int describe_image(const struct job *job, struct image *img)
 		err = image_set_attribute(img, "relume:device", "%s", device_name(job->tr->dev));
 	if (!err)
 		err = image_set_attribute(img, "relume:encoding", "%s", job->options->display ? "display" : "linear");
-	if (!err && job->scene->keeps_depth && !job->scene->needs_previous) /* gate R5 asks (diff/score/depth.c) */
+	if (!err && job->scene->keeps_depth && !job->scene->needs_previous) /* needed by gate R5 (diff/score/depth.c) */
 		err = image_set_attribute(img, "relume:unknown", "depth");
-	if (!err && dome_is_there(job)) /* gate N asks (diff/score/harm.c) */
+	if (!err && dome_is_there(job)) /* needed by gate N (diff/score/harm.c) */
 		err = image_set_attribute(img, "relume:dimmed", "%.3g",
 		                          (double)(sqrtf(DOME_LEFT) * job->scene->dome.lit + 1 - job->scene->dome.lit));
 	return err ? err : describe_camera(job, img);
@@ -173,7 +173,7 @@ int compose_fetch(struct job *job, const struct compose_request *request, struct
 	size_t n = 0;
 	int err, unmapped;
 
-	/* the next one waits for both */
+	/* the next map waits for both */
 	err = device_map(job->tr->dev, b->floats.buffer, job->n_pixels * request->n_floats * sizeof(float), 0, &floats);
 	if (err)
 		return err;
@@ -201,7 +201,7 @@ int compose_band(struct job *job, struct image *img)
 	int err = compose_reserve(job, &r);
 
 	if (!err)
-		err = frame_reserve(job->tr, sums, 1); /* where there is one pass, nobody has */
+		err = frame_reserve(job->tr, sums, 1); /* with a single pass, it does not exist yet */
 	if (!err)
 		err = run_compose(job, &r);
 	return err ? err : compose_fetch(job, &r, img);

@@ -20,7 +20,7 @@ int compose_fetch(struct job *job, const struct compose_request *request, struct
  * Fill in a band's rows. Bands are passed from the top down.
  * @param job  job; buffers.frame has the band's pixels; if there were several passes, buffers.sums has the sums of all
  *             but this one
- * @param img  what compose_start made
+ * @param img  the image of compose_start
  * @return 0 or ERR_SYSTEM (reported)
  */
 int compose_band(struct job *job, struct image *img);

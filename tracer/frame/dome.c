@@ -3,18 +3,18 @@
 #include "kernels/frame/dome.h"
 #include "tracer/frame/secondary.h"
 
-/* Of options.rays, which are for a pixel on its own: neighbours share theirs. */
+/* Divisor of options.rays, which is the number of rays for a single pixel: neighbours share theirs. */
 #define RAYS_SHARED 8u
-/* Rays of a pixel that are traced at once. */
+/* Rays per pixel that are traced at once. */
 #define RAYS_AT_ONCE 2u
 
-/* Rays of a pixel, a pass. */
+/* Rays per pixel in a pass. */
 static uint32_t rays_of(const struct job *job)
 {
 	return (job->options->rays + RAYS_SHARED - 1) / RAYS_SHARED;
 }
 
-/* Where the pixels of a block look. first: which of their rays, over all passes */
+/* Upload the directions of the rays of a block's pixels. first: index of the first ray over all passes */
 static int upload_directions(struct job *job, uint32_t first, uint32_t samples)
 {
 	float directions[RAYS_AT_ONCE][DOME_BLOCK * DOME_BLOCK][4];
@@ -31,7 +31,7 @@ int dome_is_there(const struct job *job)
 	return job->scene->dome.reach > 0 && job->options->mode == TRACER_WHITTED;
 }
 
-/* n fragments' rays, along the directions that are there. */
+/* Make the rays of n fragments along the uploaded directions. */
 static int find(struct job *job, uint32_t samples, uint32_t n)
 {
 	struct tracer *tr = job->tr;
@@ -47,7 +47,8 @@ static int find(struct job *job, uint32_t samples, uint32_t n)
 	return launch_dome_find(tr->dev, n, a);
 }
 
-/* What some rays of each of n fragments saw, to what others brought. first: which of them */
+/* Trace some rays of each of n fragments and add their results to those of earlier rays. first: index of the first of
+ * these rays */
 static int look_around(struct job *job, const struct accel_space *space, union buffer_ray rays, uint32_t first,
                        uint32_t samples, uint32_t n)
 {
@@ -61,7 +62,7 @@ static int look_around(struct job *job, const struct accel_space *space, union b
 	                                    .is_first = first == 0, .n = n, .sums = b->dome_sums));
 }
 
-/* Some rays of each fragment of the list. */
+/* Trace some rays of each fragment of the list. */
 static int look_from_list(struct job *job, const struct accel_space *space, uint32_t first, uint32_t samples,
                           uint32_t n)
 {
@@ -72,7 +73,7 @@ static int look_from_list(struct job *job, const struct accel_space *space, uint
 	return err ? err : look_around(job, space, job->tr->buffers.rays, first, samples, n);
 }
 
-/* in_blocks: as kernels.h has it */
+/* in_blocks: as in kernels.h */
 static int light(struct job *job, struct camera_rectangle rectangle, uint32_t in_blocks, uint32_t n)
 {
 	struct tracer *tr = job->tr;
@@ -90,7 +91,7 @@ static int light(struct job *job, struct camera_rectangle rectangle, uint32_t in
 	return launch_dome_light(tr->dev, n, a);
 }
 
-/* What the kernels leave for n fragments. */
+/* Make room for the kernels' results for n fragments. */
 static int reserve(struct job *job, uint32_t n)
 {
 	int err = frame_reserve(job->tr, dome_places, n);

@@ -6,12 +6,13 @@
 #include "base/err.h"
 #include "kernels/frame/emitter.h"
 
-/* A list in the making: `end` of each is the sum so far, made shares of it at last. */
+/* A list under construction. sums: running sum up to each emitter, finally converted to its `end`, a fraction of the
+ * total. */
 struct making {
 	struct emitter *list;
 	double *sums;
 	uint32_t n, room;
-	double area; /* of the present space's */
+	double area; /* area of the current space's emitters */
 };
 
 static int add_emitter(struct making *m, uint32_t instance, uint32_t primitive, double sum)
@@ -33,7 +34,7 @@ static int add_emitter(struct making *m, uint32_t instance, uint32_t primitive, 
 	return 0;
 }
 
-/* A vertex in eye space. */
+/* Transform a vertex to eye space. */
 static void place_vertex(const float *modelview, const float *position, double out[3])
 {
 	double v[4];
@@ -60,7 +61,7 @@ static double triangle_area(const struct scene_mesh *mesh, const float *modelvie
 	return sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
 }
 
-/* The triangles of an instance; sum: of area times strength, of all before and with them. */
+/* Add the triangles of an instance. sum: area times strength of all triangles so far, updated. */
 static int add_instance(const struct job *job, uint32_t transport, struct making *making, uint32_t i, double *sum)
 {
 	const struct prepared *p = &job->prepared;
@@ -84,7 +85,7 @@ static int add_instance(const struct job *job, uint32_t transport, struct making
 	return err;
 }
 
-/* Of the box around all that rays hit in a space. */
+/* Area of the box around everything that rays can hit in a space. */
 static double box_area(const struct job *job, const struct accel_space *space)
 {
 	const struct node2 *root = &job->tr->accel->top2[space->top2_first];
@@ -95,8 +96,8 @@ static double box_area(const struct job *job, const struct accel_space *space)
 	return 2 * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
 }
 
-/* All of a space, behind what the list has. Where they are half of what is around, rays find them by chance: none is
- * asked for then. */
+/* Append all emitters of a space to the list. If they are half of the surroundings, rays hit them by chance, so none is
+ * sampled. */
 static int add_space(const struct job *job, uint32_t transport, struct making *making, const struct accel_space *space,
                      struct emission_list *out)
 {
@@ -121,7 +122,7 @@ static int add_space(const struct job *job, uint32_t transport, struct making *m
 int emitters_place(struct job *job, uint32_t transport)
 {
 	struct making making = { 0 };
-	int err = frame_reserve(job->tr, emitters, 1); /* kernels take it, be it empty */
+	int err = frame_reserve(job->tr, emitters, 1); /* kernels need the buffer even if it is empty */
 
 	if (err || transport < TRANSPORT_PATH)
 		return err;

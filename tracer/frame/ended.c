@@ -6,7 +6,7 @@
 #include "scene/draw_list.h"
 #include "scene/program.h"
 
-/* user: the scene's programs as kernels left them */
+/* user: the scene's programs, as updated by kernels */
 static int is_ended(const void *user, const struct scene *scene, uint32_t i)
 {
 	const struct scene_material *m = &scene->materials[scene->instances[i].material];

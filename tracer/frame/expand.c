@@ -10,7 +10,7 @@
 #include "tracer/frame/expand_point.h"
 #include "tracer/frame/expand_quad.h"
 
-/* Polygon offset of a triangle that is drawn as lines or points (sec. 3.5.5). */
+/* Compute the polygon offset of a triangle drawn as lines or points (sec. 3.5.5). */
 static float polygon_offset(const struct expand_input *in, const struct expand_end *e)
 {
 	const struct scene_material *m = in->material;
@@ -34,7 +34,7 @@ static float polygon_offset(const struct expand_input *in, const struct expand_e
 	return slope * m->polygon_offset_factor + m->polygon_offset_units / (float)((1u << (bits ? bits : 24)) - 1);
 }
 
-/* 1 where a triangle faces its viewer with its front (sign of its area in clip space). */
+/* 1 if a triangle is front facing (sign of its area in clip space). */
 static int is_front(const struct expand_input *in, const uint32_t *index)
 {
 	const float *a = in->vertices[index[0]].clip, *b = in->vertices[index[1]].clip, *c = in->vertices[index[2]].clip;
@@ -64,8 +64,8 @@ static int polygon_of_mesh(const struct expand_input *in, struct expanded *out, 
 	cut = expand_is_cut(in, e);
 	n = expand_clip_triangle(in, e);
 	offset = n ? polygon_offset(in, e) : 0;
-	/* Mesa (22.3.6) starts the pattern anew with each triangle that planes cut, and draws the lines of whole ones
-	 * from their last side on. */
+	/* Mesa (22.3.6) restarts the pattern at each clipped triangle, and draws the lines of unclipped ones from their
+	 * last side on. */
 	if (n && (cut || !(flags & SCENE_CONTINUES)))
 		*in->dashed = 0;
 	for (int k = 0; k < n && !err; k++) {
@@ -88,7 +88,7 @@ static int line_of_mesh(const struct expand_input *in, struct expanded *out, uin
 		expand_take_color(in->material->first_provokes ? &b : &a, in->material->first_provokes ? &a : &b);
 	if (!expand_clip_line(in, &a, &b))
 		return 0;
-	/* Where a strip's first line cannot be seen, Mesa does not start the pattern anew. */
+	/* If the first line of a strip is invisible, Mesa does not restart the pattern. */
 	if (!in->mesh->edge_flags || !(in->mesh->edge_flags[primitive] & SCENE_CONTINUES))
 		*in->dashed = 0;
 	return expand_edge(in, out, &a, &b, 0, draw);
@@ -102,7 +102,8 @@ static void make_mesh(struct expanded *e)
 		                       .primitive_count = e->n_primitives, .position = (const float *)e->position,
 		                       .index = e->index, .primitive_draw = e->primitive_draw };
 	hash = XXH3_128bits(e->position, e->n_vertices * sizeof(*e->position));
-	/* not to be taken for a mesh of the scene's that has the same positions, nor for the same quads of another draw */
+	/* the hash must differ from that of a scene mesh with the same positions, and from the same quads of another
+	 * draw */
 	hash = XXH3_128bits_withSeed(e->index, e->n_primitives * 3 * sizeof(*e->index), hash.low64 ^ hash.high64 ^ 1);
 	hash = XXH3_128bits_withSeed(e->primitive_draw, e->n_primitives * sizeof(*e->primitive_draw),
 	                             hash.low64 ^ hash.high64);
@@ -110,7 +111,7 @@ static void make_mesh(struct expanded *e)
 	e->mesh.hash[1] = hash.high64;
 }
 
-/* The i-th primitive in drawing order. Flags may come from a damaged index. */
+/* Index of the i-th primitive in drawing order. Flags may come from a damaged index. */
 static uint32_t primitive_of(const struct scene_mesh *mesh, uint32_t i)
 {
 	const uint8_t *flags = mesh->edge_flags;

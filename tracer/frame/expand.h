@@ -15,8 +15,7 @@ struct expand_input {
 	const struct scene_unit *units; /* units of the material */
 	const struct view *view;
 	enum prepared_shape shape;
-	const struct scene_rectangle *rectangles; /* [mesh vertices]; NULL: the instance draws no bitmaps or pixel
-	                                           * rectangles */
+	const struct scene_rectangle *rectangles; /* [mesh vertices]; NULL: no bitmaps or pixel rectangles */
 	uint32_t cull; /* INSTANCE_CULL_*: faces of polygons not drawn in this shape */
 	uint32_t width, height, depth_bits;
 	uint32_t from_below, mesa; /* scene.samples_from_below and .mesa */

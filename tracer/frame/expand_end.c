@@ -47,8 +47,8 @@ void expand_project(const struct expand_input *in, struct expand_end *e)
 	e->z = scale_and_move((range[1] - range[0]) * 0.5f, c[2] * e->w_inv, (range[1] + range[0]) * 0.5f, fused);
 }
 
-/* Signed distances to the planes of the view volume: near, far, and four around, which `guards` has twice as far from
- * the middle. */
+/* Signed distance to a plane of the view volume: near, far, or one of the four sides, which `guards` moves to twice the
+ * distance from the middle. */
 static float clip_distance(const float *c, int plane, int guards)
 {
 	const float side = (plane & 1 ? -1.0f : 1.0f) * (guards && plane >= 2 ? 0.5f : 1.0f);
@@ -62,7 +62,7 @@ static void move_floats(float *from, const float *to, float t, size_t n)
 		from[i] += t * (to[i] - from[i]);
 }
 
-/* Move what is interpolated towards another end's, in Mesa's order of operations. */
+/* Interpolate attributes towards another end, in Mesa's order of operations. */
 static void move_attributes(struct expand_end *e, const struct expand_end *to, float t)
 {
 	move_floats(&e->v.color[0][0], &to->v.color[0][0], t, 8);
@@ -92,7 +92,8 @@ float expand_plane_distance(const struct expand_input *in, const struct expand_e
 	return in->material->clip_plane_mask >> plane & 1 ? p[0] * at[0] + p[1] * at[1] + p[2] * at[2] + p[3] * at[3] : 0;
 }
 
-/* What the view does not hold goes through Mesa's clipper, and is projected by it, whether it is cut there or not. */
+/* Primitives partly outside the view pass through Mesa's clipper and are projected by it, even if it does not clip
+ * them. */
 static void pass_clipper(struct expand_end *e)
 {
 	for (int plane = 0; plane < EXPAND_VOLUME_PLANES; plane++)
@@ -101,7 +102,7 @@ static void pass_clipper(struct expand_end *e)
 
 int expand_clip_line(const struct expand_input *in, struct expand_end *a, struct expand_end *b)
 {
-	float t_a = 0, t_b = 0; /* shares cut off at either end */
+	float t_a = 0, t_b = 0; /* fractions cut off at either end */
 	struct expand_end from = *a;
 
 	for (int plane = 0; plane < EXPAND_PLANES; plane++) {
@@ -125,8 +126,8 @@ int expand_clip_line(const struct expand_input *in, struct expand_end *a, struct
 	return a->v.clip[3] > 0 && b->v.clip[3] > 0;
 }
 
-/* The place where a plane cuts the side between two corners at signed distances of different signs, from the nearer
- * corner on as Mesa has it. */
+/* The point where a plane cuts the side between two corners, whose signed distances have different signs. Interpolates
+ * from the nearer corner, as Mesa does. */
 static struct expand_end cut_side(const struct expand_end *inside, float inner, const struct expand_end *outside,
                                   float outer)
 {
@@ -137,7 +138,7 @@ static struct expand_end cut_side(const struct expand_end *inside, float inner, 
 	return e;
 }
 
-/* Cut a polygon of n corners by one plane. @return how many are left */
+/* Clip a polygon of n corners by one plane. @return number of corners left */
 static int cut_polygon(const struct expand_input *in, struct expand_end *corners, int n, int plane)
 {
 	struct expand_end all[EXPAND_CORNERS];
@@ -177,7 +178,7 @@ int expand_is_cut(const struct expand_input *in, const struct expand_end corners
 
 int expand_clip_triangle(const struct expand_input *in, struct expand_end corners[EXPAND_CORNERS])
 {
-	static const int order[EXPAND_VOLUME_PLANES] = { 3, 2, 5, 4, 0, 1 }; /* Mesa's */
+	static const int order[EXPAND_VOLUME_PLANES] = { 3, 2, 5, 4, 0, 1 }; /* Mesa's order */
 	int n = 3;
 
 	for (int i = 0; i < EXPAND_PLANES && n >= 3; i++)
@@ -190,7 +191,7 @@ struct expand_end expand_line_point(const struct expand_end *a, const struct exp
 	float w_inv = a->w_inv + (b->w_inv - a->w_inv) * s, w;
 	struct expand_end e = *a;
 
-	if (!(w_inv > 0)) { /* beyond an end, and beyond the eye */
+	if (!(w_inv > 0)) { /* beyond an end, and behind the eye */
 		s = s < 0.5f ? 0 : 1;
 		w_inv = s > 0 ? b->w_inv : a->w_inv;
 	}

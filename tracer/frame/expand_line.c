@@ -7,13 +7,13 @@
 #include "scene/mesa.h"
 #include "tracer/frame/expand_quad.h"
 
-/* Where a coordinate lies in its pixel, from the centre. */
+/* Offset of a coordinate from the centre of its pixel. */
 static float from_centre(float x)
 {
 	return x - floorf(x) - 0.5f;
 }
 
-/* Do a place and a direction point the same way? 0 counts as positive along x and as negative along y. */
+/* Do an offset and a direction point the same way? 0 counts as positive along x and as negative along y. */
 static int same_way(float place, float d, int is_y)
 {
 	return is_y ? (place <= 0) == (d <= 0) : (place >= 0) == (d >= 0);
@@ -21,9 +21,9 @@ static int same_way(float place, float d, int is_y)
 
 /*
  * Does a line in direction (d_major, d_minor) draw the pixel of its end, which lies at (major, minor) in that pixel?
- * The diamond-exit rule (sec. 3.4.1: a line draws a pixel if it leaves its diamond) as llvmpipe has it. In doubt
- * llvmpipe looks where the line passes the pixel's middle, with the slope inverted, and for steep lines' second ends
- * includes the low border. edge: the minor coordinate from the pixel's border.
+ * The diamond-exit rule (sec. 3.4.1: a line draws a pixel if it leaves its diamond) as implemented by llvmpipe. In
+ * border cases llvmpipe tests where the line passes the pixel's middle, with the slope inverted, and includes the low
+ * border for the second ends of steep lines. edge: the minor coordinate relative to the pixel's border.
  */
 static int draws_end(float major, float minor, float edge, float d_major, float d_minor, int first, int steep)
 {
@@ -46,7 +46,7 @@ static float end_shift(const struct expand_input *in, float x, float y, float d_
 {
 	float at[2] = { from_centre(x), from_centre(y) }, major = at[steep], minor = at[!steep];
 	float edge = steep ? x - floorf(x) : y - floorf(y);
-	/* Mesa 22.3 has a second end right beside a centre cover it in any direction. */
+	/* In Mesa 22.3, a second end right beside a centre covers it in any direction. */
 	int passes = steep ? (major >= 0) == (d_major > 0) : (major > 0) == (d_major > 0);
 	int covers = first ? !passes : passes || (major == 0 && !(in->mesa & SCENE_MESA_LINE_ENDS));
 
@@ -59,7 +59,7 @@ static float end_shift(const struct expand_input *in, float x, float y, float d_
 
 #define EVERYWHERE 1e6f /* pixels: beyond all windows */
 
-/* Add an end's corner, with the end itself and the part of the line that is drawn: see GEOMETRY_LINE. */
+/* Add a corner for an end, with the end itself and the part of the line that is drawn: see GEOMETRY_LINE. */
 static void add_line_corner(const struct expand_input *in, struct expanded *out, const struct expand_end *e, int second,
                             int32_t x, int32_t y, const float drawn[3])
 {
@@ -70,7 +70,7 @@ static void add_line_corner(const struct expand_input *in, struct expanded *out,
 	memcpy(vertex->secondary[1], drawn, 3 * sizeof(*drawn));
 }
 
-/* The line a -> b, projected, as a quad. */
+/* Add the projected line a -> b as a quad. */
 static void add_line(const struct expand_input *in, struct expanded *out, const struct expand_end *a,
                      const struct expand_end *b, uint32_t draw)
 {
@@ -90,7 +90,7 @@ static void add_line(const struct expand_input *in, struct expanded *out, const 
 		y[i] = expand_snap(in, ends[i]->y + (steep ? along : across));
 	}
 	if ((steep ? y[1] > y[0] : x[1] > x[0]) != (d_major > 0))
-		return; /* its ends have passed each other: llvmpipe's planes leave nothing of it */
+		return; /* its ends have passed each other: nothing is left inside llvmpipe's edge planes */
 	for (int k = 0; k < 4; k++) {
 		int i = k == 1 || k == 2;
 		int32_t side = k < 2 ? -half : half;
@@ -101,18 +101,18 @@ static void add_line(const struct expand_input *in, struct expanded *out, const 
 	expand_add_triangles(in, out, draw);
 }
 
-/* As expand_snap, for pixels with samples: counted from their corner. */
+/* As expand_snap, but relative to pixel corners, for multisampling. */
 static int32_t snap_sampled(const struct expand_input *in, float pixels)
 {
 	return expand_round(in, pixels * 256);
 }
 
-/* Pixels along one axis that llvmpipe (22.3.6) draws of a line's rectangle; it rounds both ends of the range up. */
+/* Range of pixels along one axis that llvmpipe (22.3.6) draws for a line's rectangle. It rounds both ends up. */
 struct extent {
 	int32_t first, end;
 };
 
-/* edge: 1 where a place on a border between pixels counts as beyond it */
+/* edge: 1 if a position on a border between pixels counts as beyond it */
 static struct extent extent_of(const int32_t *v, int edge)
 {
 	int32_t least = v[0], most = v[0];
@@ -124,13 +124,13 @@ static struct extent extent_of(const int32_t *v, int edge)
 	return (struct extent){ (least + 255 + edge) >> 8, (most + 255 + edge) >> 8 };
 }
 
-/* The first pixel drawn: llvmpipe fills rectangles tile by tile, from the tile of their first pixel on. */
+/* First pixel drawn. llvmpipe fills rectangles tile by tile, starting at the tile of their first pixel. */
 static float first_drawn(struct extent e)
 {
 	return e.first % 64 == 0 ? (float)e.first : -EVERYWHERE;
 }
 
-/* The line a -> b under multisampling: a rectangle of the line's width along it (sec. 3.4.4). */
+/* Add the line a -> b for multisampling: a rectangle of the line's width along it (sec. 3.4.4). */
 static void add_line_rectangle(const struct expand_input *in, struct expanded *out, const struct expand_end *a,
                                const struct expand_end *b, uint32_t draw)
 {
@@ -164,9 +164,9 @@ static void add_line_rectangle(const struct expand_input *in, struct expanded *o
 }
 
 /*
- * Half the length of a smooth line's quad, for its coverage, and the line's direction. Not divided by the length in
- * Mesa 22.3: lines drawn back over themselves show the last bits, and one of no length lies flat. In 25.0 that one is
- * gone.
+ * Compute half the length of a smooth line's quad, for its coverage, and the line's direction. As in Mesa 22.3, do not
+ * divide by the length: lines drawn back over themselves show the last bits. A line of length 0 is horizontal; Mesa
+ * 25.0 omits it.
  */
 static float turn_smooth_line(const struct expand_input *in, float *dx, float *dy)
 {
@@ -182,7 +182,7 @@ static float turn_smooth_line(const struct expand_input *in, float *dx, float *d
 	return length < 1 ? length : 0.5f * length + 0.5f;
 }
 
-/* A smooth line as Mesa's draw module makes it: longer by half a pixel at each end, wider by half a pixel a side. */
+/* Add a smooth line as Mesa's draw module does: half a pixel longer at each end, half a pixel wider on each side. */
 static void add_smooth_line(const struct expand_input *in, struct expanded *out, const struct expand_end *a,
                             const struct expand_end *b, uint32_t draw)
 {
@@ -191,7 +191,8 @@ static void add_smooth_line(const struct expand_input *in, struct expanded *out,
 
 	if (!(half_length >= 0))
 		return;
-	/* Cut the quad along the same diagonal as Mesa: where w varies along the line, the two ways to cut it differ. */
+	/* Cut the quad along the same diagonal as Mesa: if w varies along the line, the two diagonals give different
+	 * results. */
 	for (int k = 0; k < 4; k++) {
 		const struct expand_end *e = k >= 2 ? b : a;
 		float along = e == b ? 0.5f : -0.5f, across = k == 1 || k == 2 ? half : -half;

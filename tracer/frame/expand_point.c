@@ -13,7 +13,7 @@ static void add_smooth_point(const struct expand_input *in, struct expanded *out
 	const float *fade = in->material->point_attenuation, size = fmaxf(e->v.size[0], 1);
 	int attenuated = fade[0] != 1 || fade[1] != 0 || fade[2] != 0;
 	float radius = !attenuated && size <= 2 ? 1 : 0.5f * size,
-	      rim = 1 - 2 / radius + 1 / radius / radius; /* where it begins, squared */
+	      rim = 1 - 2 / radius + 1 / radius / radius; /* inner radius of the rim, squared */
 
 	for (int k = 0; k < 4; k++) {
 		float x = k == 1 || k == 2 ? 1 : -1, y = k >= 2 ? 1 : -1;
@@ -28,17 +28,16 @@ static void add_point(const struct expand_input *in, struct expanded *out, const
 	const struct scene_material *m = in->material;
 	int32_t rounded = expand_round(in, e->v.size[0] * 256), width = rounded > 256 ? rounded : 256;
 	int32_t x = expand_snap(in, e->x) - width / 2, y = expand_snap(in, e->y) - width / 2;
-	/* Under multisampling Mesa 22.3 has a sprite's middle half a pixel off. */
+	/* With multisampling, Mesa 22.3 puts a sprite's middle half a pixel off. */
 	float off = m->multisample && !(in->mesa & SCENE_MESA_SPRITES) ? 128 / (float)width : 0;
 
-	/* Without sprites and multisampling, points are whole pixels (sec. 3.3.1), their width and place rounded as
-	 * llvmpipe does. */
+	/* Without sprites and multisampling, points cover whole pixels (sec. 3.3.1). Their width and position are
+	 * rounded as in llvmpipe. */
 	if (!m->point_sprite && !m->point_smooth && !m->multisample) {
 		int32_t pixels = (width + 127) >> 8, middle = pixels & 1 ? 0 : 128;
 
 		x = (((expand_snap(in, e->x) + middle) >> 8) - pixels / 2) * 256;
-		y = (((expand_snap(in, e->y) - 1 + middle) >> 8) - pixels / 2) * 256; /* a place on an edge belongs to
-		                                                                         the pixel above */
+		y = (((expand_snap(in, e->y) - 1 + middle) >> 8) - pixels / 2) * 256; /* on an edge: the pixel above */
 		width = pixels * 256;
 	}
 	for (int k = 0; k < 4; k++) {
@@ -61,7 +60,7 @@ int expand_point(const struct expand_input *in, struct expanded *out, struct exp
 	for (int plane = 0; plane < EXPAND_PLANES; plane++) {
 		const int is_around = plane >= 2 && plane < EXPAND_VOLUME_PLANES;
 
-		/* Their centre must lie in the view (sec. 2.12). */
+		/* The centre of a point must lie in the view (sec. 2.12). */
 		if (!(is_around && in->guards) && expand_plane_distance(in, &e, plane) < 0)
 			return 0;
 	}
@@ -81,11 +80,11 @@ int expand_corner(const struct expand_input *in, struct expanded *out, struct ex
 	return 0;
 }
 
-#define FARTHEST 32768.0f /* pixels from a window's corner: twice what any window has */
+#define FARTHEST 32768.0f /* pixels from a window's corner: twice the largest size of a window */
 
 /*
- * Rows or columns of a pixel rectangle that come near the window, and where they begin and end along its axis. Farther
- * places do not fit into 1/256 pixel. A single row or column that reaches that far ends there.
+ * Find the rows or columns of a pixel rectangle near the window, and where they begin and end along its axis. Positions
+ * farther away cannot be represented in 1/256 pixel. A single row or column that extends beyond is cut off there.
  */
 static void keep_near(float corner, float zoom, uint32_t n, float kept[2], float place[2])
 {
@@ -97,8 +96,8 @@ static void keep_near(float corner, float zoom, uint32_t n, float kept[2], float
 		place[i] = fminf(fmaxf(corner + kept[i] * zoom, -2 * FARTHEST), 2 * FARTHEST);
 }
 
-/* A place in the window by way of clip space and back, as Mesa has it, and to the same bits. scale: half the window's
- * size, < 0 to turn it */
+/* Convert a window position to clip space and back, bit for bit as Mesa does. scale: half the window's size; negative
+ * to flip it */
 static float through_clip(float place, uint32_t size, float scale)
 {
 	return fmaf(scale, place / (float)size * 2 - 1, (float)size * 0.5f);
@@ -117,7 +116,8 @@ int expand_rectangle(const struct expand_input *in, struct expanded *out, uint32
 	e.z = fminf(fmaxf(corner[2], 0), 1);
 	keep_near(corner[0], r->zoom[0], r->width, column, x);
 	keep_near(corner[1], r->zoom[1], r->height, row, y);
-	/* The second corner first: cut from there to the last one, as Mesa cuts it; see stage_texel. */
+	/* Start at the second corner, so that the diagonal runs from there to the last one, as in Mesa; see
+	 * stage_texel. */
 	for (int k = 1; k < 5; k++) {
 		int right = k == 1 || k == 2, high = k == 2 || k == 3;
 

@@ -45,8 +45,7 @@
 struct frame_buffers {
 #define FRAME_FIELD(element, name) union buffer_##element name;
 	FRAME_BUFFERS(FRAME_FIELD)
-	union buffer_frame_pixel frame, samples[SCENE_SAMPLES]; /* samples: one for each sample, if pixels have
-	                                                         * several */
+	union buffer_frame_pixel frame, samples[SCENE_SAMPLES]; /* samples: if pixels have several */
 };
 
 /* The definition of struct tracer, which trace.h hides. */

@@ -15,7 +15,7 @@
 
 /* --- Vertex stage ------------------------------------------------------------------------------------------------ */
 
-/* Run the vertex stage, with room behind its results for the vertices of expanded lines and points. */
+/* Run the vertex stage, with room after its results for the vertices of expanded lines and points. */
 static int run_vertices(struct job *job, uint32_t extra_vertices, uint32_t extra_texcoords)
 {
 	struct tracer *tr = job->tr;
@@ -69,7 +69,7 @@ static int upload_vertex_stage(struct job *job)
 
 /* --- Lines and points -------------------------------------------------------------------------------------------- */
 
-/* Expand one instance's lines or points from what the vertex stage made of their vertices. */
+/* Expand one instance's lines or points from the results of the vertex stage. */
 static int expand_instance(struct job *job, uint32_t i, float *dashed)
 {
 	const struct scene *scene = job->scene;
@@ -105,7 +105,7 @@ static int expand_instance(struct job *job, uint32_t i, float *dashed)
 	return err;
 }
 
-/* Clip coordinates of new vertices, from `first` on. */
+/* Write the clip coordinates of new vertices, from `first` on. */
 static int write_clips(struct tracer *tr, uint32_t first, const struct expanded *e)
 {
 	float (*clips)[4] = NULL;
@@ -126,7 +126,7 @@ static uint32_t flags_of_lines(const struct scene *scene, const struct scene_mat
 	return GEOMETRY_SMOOTH_LINE | (scene->mesa & SCENE_MESA_SMOOTH_LINES ? GEOMETRY_LENGTH_COVERS : 0);
 }
 
-/* Put the new vertices behind the frame's own, where there is room. */
+/* Upload the new vertices after the frame's own, where room was made. */
 static int upload_expanded(struct job *job)
 {
 	struct tracer *tr = job->tr;
@@ -184,7 +184,7 @@ static int expand_all(struct job *job)
 		n_vertices += job->expanded[i].n_vertices;
 		n_texcoords += job->expanded[i].n_texcoords;
 	}
-	if (!err && n_vertices) /* run it again, with room: a buffer loses its content when it grows */
+	if (!err && n_vertices) /* run it again with room: a buffer loses its content when it grows */
 		err = run_vertices(job, n_vertices, n_texcoords);
 	if (!err)
 		err = upload_expanded(job);
@@ -199,8 +199,8 @@ static const struct scene_mesh *mesh_of(const struct job *job, uint32_t i)
 }
 
 /*
- * 1 where a program has left an instance's vertices where its modelview puts them: then its tree stays the mesh's,
- * whatever the camera does. eye: where they are
+ * 1 if a program puts an instance's vertices where its modelview would. It then uses the tree of the mesh, however the
+ * camera moves. eye: eye-space positions from the program
  */
 static int is_in_place(const struct job *job, uint32_t i, const float (*eye)[4])
 {
@@ -220,8 +220,8 @@ static int is_in_place(const struct job *job, uint32_t i, const float (*eye)[4])
 	return 1;
 }
 
-/* Eye-space positions of baked instances; *out is NULL where there are none. Those that a program left in place are
- * baked no longer. */
+/* Read the eye-space positions of baked instances; *out is NULL if there are none. Instances that a program left in
+ * place are no longer baked. */
 static int read_baked(struct job *job, float (**out)[4])
 {
 	struct prepared *p = &job->prepared;
@@ -258,7 +258,7 @@ static int read_baked(struct job *job, float (**out)[4])
 	return err;
 }
 
-/* Number primitives through the frame's instances in draw order, as many as they have after expansion. */
+/* Number the primitives of the frame's instances in draw order, counted after expansion. */
 static int number_primitives(struct job *job)
 {
 	const struct scene *scene = job->scene;
@@ -319,7 +319,7 @@ static int build_trees(struct job *job)
 	return err;
 }
 
-/* Where programs have projections of their own, what eye space is is known only when they have run. */
+/* If programs apply their own projections, eye space is known only after they have run. */
 static int find_perspectives(struct job *job)
 {
 	int changed = 0, err = job->prepared.has_vertex_programs ? perspective_find(job, &changed) : 0;

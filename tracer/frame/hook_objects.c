@@ -7,7 +7,7 @@
 #include "base/err.h"
 #include "tracer/frame/hooks.h"
 
-/* Rays of a kind that may hit objects in a band of a CPU: as its pixels, twice; wide pictures have bands of more
+/* Room for rays of one kind that may hit objects in a CPU's band: twice its pixels. Wide pictures have larger bands
  * (trace.c). */
 #define ROOM 131072u
 #define ROOM_ROWS 64u
@@ -17,7 +17,7 @@ static const struct scene_mesh *mesh_of(const struct job *job, uint32_t instance
 	return job->scene->meshes[job->scene->instances[job->prepared.instances[instance].scene_instance].mesh];
 }
 
-/* An instance as the hook may make it an object. @return 0: it may not */
+/* Describe an instance that the hook may make an object. @return 0: it may not */
 static int describe(const struct job *job, uint32_t i, struct hook_object *out)
 {
 	const struct instance *instance = &job->prepared.instances[i];
@@ -56,7 +56,7 @@ static int ask_bounds(struct job *job)
 	return err ? err : device_read(tr->dev, tr->buffers.objects.buffer, 0, o->list, o->n * sizeof(*o->list));
 }
 
-/* Those that have a box stay, and rays meet their triangles no longer. */
+/* Keep the objects that have a box, and make rays ignore their triangles. */
 static void keep_bounded(struct job *job)
 {
 	struct job_objects *o = &job->objects;
@@ -76,7 +76,7 @@ static void keep_bounded(struct job *job)
 	}
 }
 
-/* A triangle of three vertices of its own in each slot. */
+/* Make the mesh of slots: each has a triangle with three separate vertices. */
 static int make_mesh(struct job_objects *o, uint32_t width)
 {
 	uint32_t n;
@@ -96,7 +96,8 @@ static int make_mesh(struct job_objects *o, uint32_t width)
 	return 0;
 }
 
-/* Current attributes of their own: without arrays of vertices an object has the colour of its first. */
+/* Upload separate current attributes for objects: an object without vertex arrays has the colour of its first
+ * vertex. */
 static int upload_currents(struct job *job)
 {
 	const struct scene *scene = job->scene;

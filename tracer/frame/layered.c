@@ -14,21 +14,20 @@
 #include "tracer/frame/secondary.h"
 #include "tracer/frame/segment.h"
 
-/* A round of looks at a band: layers_launch.n_looks, columns and asking, and the space that rays to lights go
- * through. */
+/* A round of looks at a band, each a camera pass over a segment. columns, asking: as in layers_launch. */
 struct looks {
-	uint32_t n, most; /* most: that there is room for */
-	uint32_t layers;  /* of the block that has the most */
+	uint32_t n, most; /* most: looks that there is room for */
+	uint32_t layers;  /* layers of the block with the most */
 	uint32_t columns, asking;
-	const struct accel_space *space, *sky; /* sky: what rays see that hit nothing */
-	uint32_t next; /* the segment that is looked at next: again, if its columns go on; tracer.counts has where */
+	const struct accel_space *space, *sky; /* space: for rays to lights; sky: for rays that hit nothing */
+	uint32_t next; /* segment to look at next: the same one if goes_on, from the positions in tracer.counts */
 	int goes_on;
-	struct layer_clear *clears; /* room for all of the frame */
-	uint32_t n_clears, cleared; /* of this round; clears of segments before are done */
-	uint32_t skipped;           /* of the first segment's, which all pixels begin with */
+	struct layer_clear *clears; /* room for all clears of the frame */
+	uint32_t n_clears, cleared; /* n_clears: of this round; clears of segments before `cleared` are done */
+	uint32_t skipped;           /* clears of the first segment that are part of the initial pixels */
 };
 
-/* Whether kernels know all that a material asks of the frame buffer. */
+/* 1 if the kernels support all per-fragment operations of a material. */
 static int is_known(const struct job *job, const struct scene_material *m)
 {
 	return !(m->stencil_test && pixel_stencil_bits(job->bits)) && !m->logic_op && !m->floats && !m->srgb &&
@@ -41,7 +40,7 @@ static const struct accel_space *space_of(const struct job *job, const struct se
 	return job->options->mode == TRACER_GL ? NULL : secondary_space(job, segment->view, 0);
 }
 
-/* Whether a segment's rays go through another space than those of the round so far. */
+/* 1 if a segment's rays need another space than those of the round so far. */
 static int leaves_space(const struct job *job, const struct segment *segment, const struct looks *looks)
 {
 	const int has_rays = job->prepared.n_light_slots || plain_has_mirrors(job);
@@ -50,7 +49,7 @@ static int leaves_space(const struct job *job, const struct segment *segment, co
 	return own && looks->space && own != looks->space;
 }
 
-/* How many of the first segment's clears all pixels begin with. */
+/* Number of the first segment's clears that are part of the initial pixels. */
 static uint32_t cleared_first(const struct job *job, struct scene_clear *clear)
 {
 	const uint32_t n = segment_whole_clear(job, clear);
@@ -58,7 +57,7 @@ static uint32_t cleared_first(const struct job *job, struct scene_clear *clear)
 	return job->scene->start ? 0 : n;
 }
 
-/* Whether what is cleared later on is none of these buffers, as a Clear names them. */
+/* 1 if later clears affect none of these buffers (bits as in a Clear). */
 static int keeps_uncleared(const struct job *job, uint32_t buffers)
 {
 	struct scene_clear clear;
@@ -75,7 +74,7 @@ static int keeps_uncleared(const struct job *job, uint32_t buffers)
 	return 1;
 }
 
-/* Which buffers all pixels begin with. */
+/* Buffers that all pixels begin with cleared. */
 static uint32_t cleared_buffers(const struct job *job)
 {
 	struct scene_clear clear;
@@ -87,13 +86,13 @@ static uint32_t cleared_buffers(const struct job *job)
 	return buffers;
 }
 
-/* Whether colours from before the frame may show that nobody knows. */
+/* 1 if unknown colours from before the frame may show. */
 static int is_unknown(const struct job *job)
 {
 	return job->scene->needs_previous && !job->scene->start && !(cleared_buffers(job) & 1);
 }
 
-/* Of a picture: whether a colour is all that is not known of its pixels, and its stencil is what it was at first. */
+/* For a picture: 1 if at most the colour of its pixels is unknown, and the stencil is unchanged. */
 static int suits_picture(const struct job *job)
 {
 	const struct scene *scene = job->scene;
@@ -107,7 +106,7 @@ static int suits_picture(const struct job *job)
 	return !scene->stencil_bits || keeps_uncleared(job, 4);
 }
 
-/* Of an image: whether all is known of its pixels, or a colour that may be made later is all that is not. */
+/* For an image: 1 if at most the colour of its pixels is unknown, and that may be made later. */
 static int suits_image(const struct job *job)
 {
 	const struct scene *scene = job->scene;
@@ -146,7 +145,7 @@ int layered_has_columns(const struct job *job)
 
 /* --- Looks ------------------------------------------------------------------------------------------------------- */
 
-/* A look's counts are 0 outside of its rectangle. */
+/* Clear the counts of a look: they are 0 outside its rectangle. */
 static int clear_look(struct job *job, const struct looks *looks)
 {
 	struct tracer *tr = job->tr;
@@ -157,7 +156,7 @@ static int clear_look(struct job *job, const struct looks *looks)
 	return device_write(tr->dev, tr->buffers.counts.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
 }
 
-/* Room for one look at each segment, and one where a column goes on. */
+/* Make room for one look at each segment, and one more for continued columns. */
 static int reserve_looks(struct job *job, struct looks *looks)
 {
 	struct tracer *tr = job->tr;
@@ -175,7 +174,7 @@ static int reserve_looks(struct job *job, struct looks *looks)
 	return err ? err : frame_reserve(tr, sparse, n * CAMERA_COLUMN_MAX);
 }
 
-/* Add a look's counts, in tracer.counts, to the layers of blocks, in tracer.first. @return the most of a pixel */
+/* Add a look's counts, in tracer.counts, to the layers of blocks, in tracer.first. @return most layers of a pixel */
 static uint32_t add_layers(struct job *job, struct looks *looks)
 {
 	const uint32_t columns = plain_columns(job->width);
@@ -195,7 +194,7 @@ static uint32_t add_layers(struct job *job, struct looks *looks)
 	return most_of_all;
 }
 
-/* Where columns go on that the last look filled; tracer.counts has its counts. */
+/* Find where the columns filled by the last look continue. tracer.counts: its counts, replaced by these positions. */
 static int go_on(struct job *job, const struct looks *looks)
 {
 	struct tracer *tr = job->tr;
@@ -216,7 +215,7 @@ static int go_on(struct job *job, const struct looks *looks)
 	return device_unmap(tr->dev, tr->buffers.sparse.buffer, mapped);
 }
 
-/* One look at a rectangle of a segment. */
+/* Look once at a rectangle of a segment. */
 static int look_at(struct job *job, const struct segment *segment, struct camera_rectangle r, struct looks *looks)
 {
 	struct tracer *tr = job->tr;
@@ -232,7 +231,7 @@ static int look_at(struct job *job, const struct segment *segment, struct camera
 	looks->sky = space ? secondary_space(job, segment->view, 1) : looks->sky;
 	first = plain_look_first(looks->columns, looks->n, job->n_pixels);
 	if (!looks->goes_on)
-		memset(tr->counts, 0, bytes); /* columns begin with the first fragment */
+		memset(tr->counts, 0, bytes); /* columns start at the first fragment */
 	if (is_column)
 		err = device_write(tr->dev, tr->buffers.after.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
 	if (!err)
@@ -246,7 +245,7 @@ static int look_at(struct job *job, const struct segment *segment, struct camera
 	return looks->goes_on ? go_on(job, looks) : err;
 }
 
-/* The clears of a segment, before the next look. */
+/* Add the clears of a segment before the next look. */
 static void clear_segment(const struct job *job, const struct segment *segment, struct looks *looks)
 {
 	const uint32_t bits = pixel_depth_bits(job->bits);
@@ -263,7 +262,7 @@ static void clear_segment(const struct job *job, const struct segment *segment, 
 	looks->cleared++;
 }
 
-/* So many looks as a round takes; the layers of blocks in tracer.first. */
+/* Run the looks of one round. tracer.first receives the layers of blocks. */
 static int look_around(struct job *job, struct looks *looks)
 {
 	const struct prepared *p = &job->prepared;
@@ -294,7 +293,7 @@ static int look_around(struct job *job, struct looks *looks)
 	return err;
 }
 
-/* Give blocks with fragments their places, one a layer. @return the pixels of all of them */
+/* Give blocks with fragments their places, one per layer. @return number of pixels in all places */
 static uint32_t place_blocks(struct job *job)
 {
 	const uint32_t blocks = plain_blocks(job->width, job->n_rows);
@@ -311,7 +310,7 @@ static uint32_t place_blocks(struct job *job)
 
 /* --- Drawing ----------------------------------------------------------------------------------------------------- */
 
-/* What kernels leave for n fragments and their rays. */
+/* Make room for the kernels' results for n fragments and their rays. */
 static int reserve_places(struct job *job, uint32_t n, uint32_t n_slots)
 {
 	struct tracer *tr = job->tr;
@@ -326,7 +325,7 @@ static int reserve_places(struct job *job, uint32_t n, uint32_t n_slots)
 	return secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1);
 }
 
-/* round: PLAIN_BEGINS and the like */
+/* round: PLAIN_BEGINS and similar flags */
 static struct plain_launch launch_of(const struct job *job, const struct looks *looks, uint32_t round, uint32_t n,
                                      uint32_t n_slots, const struct compose_request *request)
 {
@@ -346,7 +345,8 @@ static struct plain_launch launch_of(const struct job *job, const struct looks *
 	return a;
 }
 
-/* Give fragments that light leaves their places in the list, of n of all. n_list: receives how many they are */
+/* Give the fragments that reflect or transmit light their places in the list, out of n fragments. n_list: receives
+ * their number */
 static int place_leaving(struct job *job, uint32_t n, uint32_t *n_list)
 {
 	struct tracer *tr = job->tr;
@@ -376,8 +376,8 @@ static int place_leaving(struct job *job, uint32_t n, uint32_t *n_list)
 	return err || !*n_list ? err : frame_reserve(tr, shaded, *n_list);
 }
 
-/* Paths from the list; then all planes where these are. The visibility of lights is kept: rays of paths have their
- * own. */
+/* Follow paths from the list, then make all planes if there are any. The visibility of lights is saved, as rays of
+ * paths overwrite it. */
 static int follow(struct job *job, const struct looks *looks, struct plain_launch a, uint32_t n_list)
 {
 	struct frame_buffers *b = &job->tr->buffers;
@@ -394,7 +394,7 @@ static int follow(struct job *job, const struct looks *looks, struct plain_launc
 	return launch_layered_mirror(job->tr->dev, plain_blocks(job->width, job->n_rows), &a);
 }
 
-/* All planes without shadows and mirrors, and rays to lights; then what these change. */
+/* Draw all planes without shadows and mirrors, trace rays to lights, then redraw the planes that these change. */
 static int draw(struct job *job, const struct looks *looks, uint32_t round, uint32_t n,
                 const struct compose_request *request)
 {
@@ -417,14 +417,14 @@ static int draw(struct job *job, const struct looks *looks, uint32_t round, uint
 	if (err || !(n_slots || n_list))
 		return err;
 	a = launch_of(job, looks, round, n, n_slots, request);
-	if (round & PLAIN_ENDS) /* others hand on all of a pixel */
+	if (round & PLAIN_ENDS) /* other rounds pass on whole pixels */
 		a.request = plain_shadow_request(a.request);
 	err = launch_layered_shadow(job->tr->dev, blocks, &a);
 	a.request = *request;
 	return err || !n_list ? err : follow(job, looks, a, n_list);
 }
 
-/* Room for what a round leaves for the next, where there are several. */
+/* Make room for the state passed from one round to the next, if there are several. */
 static int reserve_kept(struct job *job, int is_only)
 {
 	const size_t n = is_only ? 1 : (size_t)plain_columns(job->width) * PLAIN_WIDTH * job->n_rows * PLAIN_KEPT;
@@ -433,7 +433,7 @@ static int reserve_kept(struct job *job, int is_only)
 	return err ? err : frame_reserve(job->tr, next_pixels, n);
 }
 
-/* The picture that the frame begins with becomes what a round has left. */
+/* Use the picture that the frame starts from as the state of an earlier round. */
 static int keep_start(struct job *job)
 {
 	const struct scene_picture *start = job->scene->start;
@@ -452,7 +452,7 @@ static int keep_start(struct job *job)
 	                                         .kept = b->kept_pixels));
 }
 
-/* What a round is, apart from the last. */
+/* Flags of a round, except PLAIN_ENDS. */
 static uint32_t round_of(const struct job *job, int is_first)
 {
 	if (!is_first)
@@ -460,8 +460,8 @@ static uint32_t round_of(const struct job *job, int is_first)
 	return job->scene->start ? 0 : PLAIN_BEGINS | (is_unknown(job) ? PLAIN_UNKNOWN : 0);
 }
 
-/* A round of looks, as many as there is room for, and what they have found drawn. is_first: of the band. is_last:
- * receives whether it was the last */
+/* Run a round with as many looks as there is room for, and draw the fragments found. is_first: first round of the band.
+ * is_last: receives 1 if it was the last */
 static int draw_round(struct job *job, struct looks *looks, int is_first, int *is_last,
                       const struct compose_request *request)
 {
@@ -488,7 +488,7 @@ static int draw_round(struct job *job, struct looks *looks, int is_first, int *i
 	return err;
 }
 
-/* looks: with room for clears */
+/* looks: has room for clears */
 static int draw_band(struct job *job, struct looks *looks)
 {
 	struct compose_request request;
@@ -499,7 +499,7 @@ static int draw_band(struct job *job, struct looks *looks)
 	memset(job->background, 0, sizeof(job->background));
 	if (!job->scene->start)
 		memcpy(job->background, clear.color, sizeof(job->background));
-	/* As in plain_band. */
+	/* Same condition as in plain_band. */
 	err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
 	if (!err)
 		err = frame_reserve_counts(job);

@@ -6,7 +6,7 @@
 
 #include "base/err.h"
 
-#define BEAUTY 9u /* of a pixel's parts in the sums */
+#define BEAUTY 9u /* index of the beauty among a pixel's parts in the sums */
 
 void noise_free(struct noise *noise)
 {
@@ -14,7 +14,7 @@ void noise_free(struct noise *noise)
 	*noise = (struct noise){ 0 };
 }
 
-/* The sums' brightness. NULL: the device or memory failed */
+/* Read the brightness of the sums. NULL: the device failed, or out of memory */
 static float *read_sums(struct job *job, int *err)
 {
 	const size_t n = (size_t)job->width * job->height;
@@ -49,7 +49,7 @@ int noise_measure(struct job *job, struct noise *noise, uint32_t passes, float *
 		squares += off * off;
 		total += (double)sums[i] / all;
 	}
-	/* The means' variances are to each other as 1 / before, 1 / since and, of all samples, 1 / all. */
+	/* The variances of the means are proportional to 1 / before, 1 / since and, for all samples, 1 / all. */
 	if (noise->sums)
 		*out = total > 0 ? (float)(sqrt(squares / (double)n * before * since) / all / (total / (double)n)) : 0;
 	free(noise->sums);

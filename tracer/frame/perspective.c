@@ -13,22 +13,22 @@
 
 #define LEAST_FACTOR 0.2 /* cotangents of half the angle that a picture spans: 157 degrees, */
 #define MOST_FACTOR 20.0 /* 6 */
-#define MOST_W 1e15f /* beyond that nothing is drawn */
-#define MOST_ROUNDING 1e-5f /* of a depth, as a share of its position's largest number */
+#define MOST_W 1e15f /* nothing is drawn beyond */
+#define MOST_ROUNDING 1e-5f /* rounding error of a depth, relative to its position's largest number */
 #define USUAL_FACTOR 2.414213562 /* 45 degrees */
 
-/* What the draws of a view of the scene tell. */
+/* Measurements from the draws of one view of the scene. */
 struct found {
-	int perspective; /* 0: the view has a perspective already, or something in it is not displaced */
-	float least_w, most_w; /* those above 0 */
-	double factor[2];      /* of x and y; 0: not known */
-	double sums[5]; /* of 1, w, w w, z and z w of all clip positions, each by the square of its larger number of the
-	                   two */
-	int is_bent;           /* depths are not linear in w */
-	uint32_t vertices;     /* of the mesh that they are of */
+	int perspective; /* 0: the view already has a perspective, or an instance in it is not displaced */
+	float least_w, most_w; /* least and greatest w above 0 */
+	double factor[2];      /* factors of x and y; 0: unknown */
+	double sums[5]; /* sums of 1, w, w w, z and z w over all clip positions, each divided by the square of the
+	                 * larger of its z and w */
+	int is_bent;           /* 1: depths are not linear in w */
+	uint32_t vertices;     /* vertices of the mesh that the factors are from */
 };
 
-/* Solve a x = b for three right sides. @return 0: there is no solution, or hardly one */
+/* Solve a x = b for three right-hand sides. @return 0: a is singular or nearly so */
 static int solve(double a[4][4], double b[4][3])
 {
 	for (int col = 0; col < 4; col++) {
@@ -71,8 +71,8 @@ static double length_of(const double b[4][3], int k)
 }
 
 /*
- * The factors of a mesh that one matrix has moved: a turn, one scale and a shift, then the projection. Its rows for x,
- * y and w are then as long as the factors, and 1, times the scale.
+ * Find the factors from a mesh transformed by a single matrix: a rotation, a uniform scale and a translation, then the
+ * projection. The lengths of the matrix's rows for x, y and w are then the two factors and 1, all times the scale.
  */
 static void find_factors(const struct scene_mesh *mesh, const float (*clip)[4], struct found *f)
 {
@@ -89,14 +89,14 @@ static void find_factors(const struct scene_mesh *mesh, const float (*clip)[4], 
 				b[row][k] += (double)mesh->position[4 * (size_t)v + (size_t)row] * clip[v][parts[k]];
 		}
 	if (!solve(a, b))
-		return; /* flat */
+		return; /* the mesh is flat */
 	for (uint32_t v = 0; v < mesh->vertex_count; v++)
 		for (int k = 0; k < 3; k++) {
 			const float *p = mesh->position + 4 * (size_t)v;
 			const double at = b[0][k] * p[0] + b[1][k] * p[1] + b[2][k] * p[2] + b[3][k] * p[3];
 
 			if (!(fabs(at - clip[v][parts[k]]) <= 1e-3 * (fabs((double)clip[v][3]) + 1e-6)))
-				return; /* it is bent */
+				return; /* not transformed by a single matrix */
 		}
 	x = length_of((const double (*)[3])b, 0) / length_of((const double (*)[3])b, 2);
 	y = length_of((const double (*)[3])b, 1) / length_of((const double (*)[3])b, 2);
@@ -107,7 +107,7 @@ static void find_factors(const struct scene_mesh *mesh, const float (*clip)[4], 
 	f->vertices = mesh->vertex_count;
 }
 
-/* The clip positions of a prepared instance; the caller frees them. */
+/* Read the clip positions of a prepared instance; the caller frees them. */
 static int read_clips(const struct job *job, uint32_t i, float (**clip)[4])
 {
 	const struct geometry *g = &job->prepared.geometries[i];
@@ -119,7 +119,7 @@ static int read_clips(const struct job *job, uint32_t i, float (**clip)[4])
 	                   g->vertex_count * sizeof(**clip));
 }
 
-/* Sums by which depths are found as numbers that are linear in w. */
+/* Add a vertex to the sums for a linear fit of depth as a function of w. */
 static void add_depth(const float clip[4], double sums[5])
 {
 	const double z = (double)clip[2], w = (double)clip[3], largest = fmax(fabs(z), fabs(w)),
@@ -156,9 +156,9 @@ static int look_at(const struct job *job, uint32_t i, struct found *f)
 }
 
 /*
- * Depths that are linear in w and grow with it are the projection's: they cut off what is nearer than the program's own
- * plane, and what lies behind what is drawn. Of others it has none; from the eye on all is there, and columns tell what
- * lies before what (perspective_check_depths).
+ * If depths are linear in w and grow with it, use them in the projection: it then clips at the program's near and far
+ * planes. Otherwise the projection's depths are arbitrary and start right at the eye, and columns find which fragment
+ * is in front (perspective_check_depths).
  */
 static void make_depths(const struct found *f, float out[16])
 {
@@ -181,7 +181,7 @@ static void make_projection(const struct scene_view *view, const struct found *f
 	make_depths(f, out);
 }
 
-/* Which views of the scene are drawn in by programs alone, and have no perspective. */
+/* Find the views of the scene that have no perspective and are drawn only by programs. */
 static void find_views(const struct job *job, struct found *found)
 {
 	const struct scene *s = job->scene;
@@ -199,7 +199,7 @@ static void find_views(const struct job *job, struct found *found)
 			prepare_is_displaced(s, &s->instances[p->instances[i].scene_instance]);
 }
 
-/* 1 where a clip position's depth is not the one that the projection gives what has its x, y and w. */
+/* 1 if a clip position's depth differs from the projection's depth at the same x, y and w. */
 static int has_own_depth(const struct view *view, const float clip[4])
 {
 	const float *m = view->projection;
@@ -210,7 +210,7 @@ static int has_own_depth(const struct view *view, const float clip[4])
 	return !(fabsf(depth - at.z) <= MOST_ROUNDING * largest);
 }
 
-/* *own: set where a prepared instance has such a depth */
+/* Check the depths of a prepared instance. *own: set if one differs from the projection's */
 static int look_at_depths(const struct job *job, uint32_t i, int *own)
 {
 	const struct prepared *p = &job->prepared;
@@ -229,13 +229,13 @@ static int look_at_depths(const struct job *job, uint32_t i, int *own)
 	return err;
 }
 
-/* Whether a view is given a perspective. */
+/* 1 if a view is given a perspective. */
 static int is_given(const struct found *f)
 {
 	return f->perspective && f->most_w > 1.001f * f->least_w;
 }
 
-/* @return whether any is given */
+/* @return 1 if any view is given a perspective */
 static int give_projections(struct job *job, const struct found *found)
 {
 	const struct scene *s = job->scene;

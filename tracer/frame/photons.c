@@ -11,11 +11,11 @@
 #include "tracer/frame/secondary.h"
 
 #define PHOTONS_OF_PASS (1u << 17)
-#define RADIUS_FIRST 0.08f    /* of the smallest thing's that photons are sent to */
+#define RADIUS_FIRST 0.08f    /* first radius, relative to that of the smallest object that photons are sent to */
 #define RADIUS_SHRINKS 0.667f /* alpha of the paper, sec. 4 */
-#define FLATNESS 0.3f         /* photons off a pixel's plane by more than this of the radius are another surface's */
+#define FLATNESS 0.3f         /* photons off a pixel's plane by more than this times the radius are ignored */
 
-/* From one light to one instance that mirrors or bends, within a ball about it. */
+/* Photons from one light to one instance that reflects or refracts, within a ball around it. */
 struct beam {
 	const struct scene_light *light;
 	uint32_t instance;
@@ -23,7 +23,8 @@ struct beam {
 	float radius;
 };
 
-/* A photon's share of the light, for what is found of its way: its beam, and steradians or areas that it stands for. */
+/* The share of the light that a photon carries: its beam, and the solid angle (steradians) or area that it
+ * represents. */
 struct sent {
 	uint32_t beam;
 	float share;
@@ -34,16 +35,16 @@ struct photons {
 	const struct accel_space *space;
 	struct beam *beams;
 	uint32_t n_beams;
-	float far; /* from the viewer, beyond all surfaces */
+	float far; /* distance from the viewer, beyond all surfaces */
 	float smallest;
 
-	/* of a pass */
+	/* buffers of one pass */
 	struct ray *rays;
 	struct path *paths;
 	struct sent *sent;
-	struct photon *found; /* weight: the light that it brings; number: the next one in its cell of the grid */
+	struct photon *found; /* weight: the light it carries; number: the next photon in its cell of the grid */
 	uint32_t n_found, room;
-	uint32_t *cells; /* [CELLS] the first of each; SCENE_NONE: none */
+	uint32_t *cells; /* [CELLS] first photon of each cell; SCENE_NONE: none */
 	int lacks_memory;
 };
 #define CELLS (1u << 18)
@@ -65,7 +66,7 @@ static float length_of(struct vec3 v)
 	return sqrtf(v3_dot(v, v));
 }
 
-/* The ball about an instance's vertices whose centre is that of their box. radius: receives 0 where there is none */
+/* Compute the ball around an instance's vertices, centred on their box. radius: receives 0 if there is none */
 static struct vec3 ball_about(const struct scene_mesh *mesh, const struct instance *instance, float *radius)
 {
 	struct vec3 lo = v3(FLT_MAX, FLT_MAX, FLT_MAX), hi = v3_scale(lo, -1), centre;
@@ -89,7 +90,7 @@ static int is_same_light(const struct scene_light *a, const struct scene_light *
 	return memcmp(a, b, sizeof(*a)) == 0;
 }
 
-/* A light that shines, and none of those before it in the list again. */
+/* 1 if a light shines and does not repeat an earlier one in the list. */
 static int is_asked(const struct scene *scene, uint32_t light)
 {
 	const struct scene_light *l = &scene->lights[light];
@@ -100,7 +101,7 @@ static int is_asked(const struct scene *scene, uint32_t light)
 	return l->diffuse[0] > 0 || l->diffuse[1] > 0 || l->diffuse[2] > 0;
 }
 
-/* Whether photons are sent to an instance: it mirrors or bends light, in this space. */
+/* 1 if photons are sent to an instance: it reflects or refracts light, in this space. */
 static int is_sent_to(const struct photons *p, const struct instance *instance)
 {
 	const struct scene_surface *s = &p->job->scene->materials[instance->material].surface;
@@ -153,8 +154,8 @@ static int find_beams(struct photons *p)
 
 /* --- Sending ----------------------------------------------------------------------------------------------------- */
 
-/* Parallel light: from beyond all surfaces, evenly over the ball's disk. @return the area that all photons of the beam
- * share */
+/* Send parallel light from beyond all surfaces, evenly over the ball's disk. @return area shared by all photons of the
+ * beam */
 static float send_parallel(const struct photons *p, const struct beam *b, const float at[2], struct ray *ray)
 {
 	const struct vec3 d = v3_scale(v3_normalize(v3_load(b->light->position_eye)), -1);
@@ -165,8 +166,8 @@ static float send_parallel(const struct photons *p, const struct beam *b, const 
 	return (float)M_PI * b->radius * b->radius;
 }
 
-/* From a place, or a disk of the light's radius: evenly over the cone about the ball. @return its solid angle, weakened
- * as a spot is */
+/* Send light from a point, or from a disk with the light's radius, evenly over the cone around the ball. @return solid
+ * angle of the cone, times the spotlight's attenuation */
 static float send_from_place(const struct beam *b, const float at[2][2], struct ray *ray)
 {
 	const struct scene_light *l = b->light;
@@ -175,7 +176,7 @@ static float send_from_place(const struct beam *b, const float at[2][2], struct 
 	const struct vec3 from = v3_add(middle, v3_scale(disk, fmaxf(l->radius, 0))), to = v3_sub(b->centre, from),
 			  axis = v3_normalize(to);
 	const float share = b->radius / fmaxf(length_of(to), FLT_MIN),
-		    least = share < 1 ? sqrtf(1 - share * share) : -1; /* within it: all around */
+		    least = share < 1 ? sqrtf(1 - share * share) : -1; /* inside the ball: all directions */
 	const float cosine = 1 - at[0][0] * (1 - least), sine = sqrtf(fmaxf(1 - cosine * cosine, 0)),
 		    turn = 2 * (float)M_PI * at[0][1];
 	struct vec3 u, v, d;
@@ -187,7 +188,7 @@ static float send_from_place(const struct beam *b, const float at[2][2], struct 
 	return 2 * (float)M_PI * (1 - least) * light_spot(l, v3_scale(d, -1));
 }
 
-/* The photons of a pass, as many for each beam. */
+/* Make the photons of a pass, the same number for each beam. */
 static uint32_t make_photons(struct photons *p, uint32_t pass)
 {
 	const uint32_t each = PHOTONS_OF_PASS / p->n_beams ? PHOTONS_OF_PASS / p->n_beams : 1;
@@ -220,7 +221,7 @@ static int is_lit_by(const struct scene *scene, const struct scene_material *m, 
 	return 0;
 }
 
-/* The light that a photon brings a white surface, all of it in one point. */
+/* The light that a photon brings to a white surface, concentrated in one point. */
 static void brightness(const struct photons *p, const struct photon *photon, float out[3])
 {
 	const struct sent *sent = &p->sent[photon->number];
@@ -271,7 +272,7 @@ static int32_t cell_along(float x, float size)
 	return (int32_t)fmaxf(fminf(floorf(x / size), 1e9f), -1e9f);
 }
 
-/* Lists of the photons in each cell, of twice the radius. */
+/* Make lists of the photons in each cell; a cell's side is twice the radius. */
 static void sort_into_cells(struct photons *p, float radius)
 {
 	memset(p->cells, 0xff, CELLS * sizeof(*p->cells));
@@ -285,8 +286,7 @@ static void sort_into_cells(struct photons *p, float radius)
 	}
 }
 
-/* The cells about a point within a radius: two along each axis. A cell that is one of several, by its hash, is named
- * once. */
+/* List the cells within a radius of a point: two along each axis. Cells with the same hash are listed once. */
 static uint32_t cells_about(const float at[3], float radius, uint32_t out[8])
 {
 	int32_t base[3];
@@ -306,7 +306,7 @@ static uint32_t cells_about(const float at[3], float radius, uint32_t out[8])
 	return n;
 }
 
-/* A photon's light, where it came to a point's surface within the radius. */
+/* Add a photon's light if it landed on a point's surface within the radius. */
 static void gather_photon(const struct photon *photon, const float at[3], const float normal[3], float radius,
                           float sum[3])
 {

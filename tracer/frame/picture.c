@@ -8,7 +8,7 @@
 #include "kernels/frame/plain.h"
 #include "kernels/gl/pixel.h"
 
-/* The band's pixels as a picture has them; NULL: not known. */
+/* Copy the band's pixels from a picture; NULL: unknown. */
 static void start_pixels(const struct job *job, const struct scene_picture *start, struct frame_pixel *pixels)
 {
 	memset(pixels, 0, job->n_pixels * sizeof(*pixels));
@@ -43,7 +43,7 @@ int picture_upload_start(struct job *job)
 	return err;
 }
 
-/* The band's pixels on the device, or those of one of their samples, rounded as GL's frame buffer is. */
+/* Read the band's pixels, or those of one sample, from the device, rounded to GL's frame buffer. */
 static int read_pixels(const struct job *job, union buffer_frame_pixel from, struct frame_pixel *pixels,
                        struct scene_picture *picture)
 {
@@ -62,7 +62,7 @@ static int read_pixels(const struct job *job, union buffer_frame_pixel from, str
 			picture->rgba[4 * i + 3] = 255;
 		if (!scene->alpha_bits && picture->colors)
 			picture->colors[4 * i + 3] = 1;
-		picture->depth[i] = scene->depth_bits > 24 ? p->depth >> 8 : p->depth; /* pictures have 24 at most */
+		picture->depth[i] = scene->depth_bits > 24 ? p->depth >> 8 : p->depth; /* at most 24 in pictures */
 		picture->stencil[i] = (uint8_t)p->stencil;
 	}
 	return err;
@@ -82,7 +82,7 @@ int picture_read_band(const struct job *job, struct scene_picture *picture)
 	return err;
 }
 
-/* The band's planes of one word a pixel. */
+/* Read a plane of the band with one word per pixel. */
 static int take_words(const struct job *job, const struct device_buffer *buffer, void *out)
 {
 	return device_read(job->tr->dev, buffer, 0, out, job->n_pixels * sizeof(uint32_t));

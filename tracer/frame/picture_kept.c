@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A picture's planes from another of the same size; `to` has at least those that `from` has. */
+/* Copy a picture's planes from another of the same size; `to` has at least the planes of `from`. */
 static void copy_planes(struct scene_picture *to, const struct scene_picture *from, size_t n)
 {
 	memcpy(to->rgba, from->rgba, 4 * n);
@@ -32,7 +32,7 @@ void picture_free(struct scene_picture *p)
 	free(p);
 }
 
-/* Room for the planes of a scene's picture. @return 0: out of memory */
+/* Allocate the planes of a scene's picture. @return 0: out of memory */
 static int reserve_planes(const struct scene *scene, struct scene_picture *p)
 {
 	const size_t n = (size_t)scene->width * scene->height;
@@ -62,7 +62,7 @@ struct scene_picture *picture_blank(const struct scene *scene)
 	return NULL;
 }
 
-/* Whether all is known that a scene shows. */
+/* 1 if all pixels of a scene are known. */
 static int is_whole(const struct scene *scene)
 {
 	return scene->start || !scene->needs_previous || scene->is_first;
@@ -88,7 +88,7 @@ void picture_keep(struct picture_kept *kept, const struct scene *scene, const st
 	kept->is_whole = is_whole(scene);
 }
 
-/* Whether what is kept is of this scene, which may have grown since; and so may its window. */
+/* 1 if the kept picture belongs to this scene. The scene and its window may have grown since. */
 static int is_of(const struct picture_kept *kept, const struct scene *scene)
 {
 	const struct scene_picture *p = kept->picture;
@@ -116,7 +116,7 @@ int picture_rest(const struct picture_kept *kept, const struct scene *scene, str
 	const struct scene_picture *p = kept->picture;
 	const uint32_t n_clears = scene->n_clears - kept->n_clears;
 
-	/* Pictures have 24 bits of depth at most. */
+	/* Pictures have at most 24 bits of depth. */
 	if (!is_of(kept, scene) || !kept->is_whole || !is_whole(scene) || scene->depth_bits > 24 ||
 	    kept->n_instances > scene->n_instances || kept->n_clears > scene->n_clears)
 		return 0;

@@ -9,7 +9,7 @@
 #include "tracer/frame/secondary.h"
 #include "tracer/frame/segment.h"
 
-/* Whether shadows and mirrors alone are followed, to lights without a size. */
+/* 1 if only shadows, of lights without a size, and mirrors are traced. */
 static int is_lit_simply(const struct job *job)
 {
 	const struct scene *scene = job->scene;
@@ -24,7 +24,7 @@ static int is_lit_simply(const struct job *job)
 	return 1;
 }
 
-/* Whether the picture is cleared whole, and never again. */
+/* 1 if the whole picture is cleared once and not again. */
 static int is_cleared_once(const struct job *job)
 {
 	struct scene_clear clear;
@@ -40,7 +40,7 @@ int plain_is_simple(const struct job *job)
 	return !job->options->hook && job->n_passes == 1 && job->n_samples == 1 && is_lit_simply(job);
 }
 
-/* Kernels of one pixel a work item know neither light from all around nor programs. */
+/* Kernels with one pixel per work item support neither dome light nor programs. */
 static int is_known(const struct job *job)
 {
 	if (frame_in_packets(job))
@@ -71,7 +71,7 @@ int plain_suits(const struct job *job)
 	return 1;
 }
 
-/* Whether a pixel of a block has a fragment. x, y: the block's first */
+/* 1 if a pixel of a block has a fragment. x, y: the block's first pixel */
 static int has_fragment(const struct job *job, struct camera_rectangle r, uint32_t x, uint32_t y)
 {
 	const int32_t x1 = r.x1 < (int32_t)(x + PLAIN_WIDTH) ? r.x1 : (int32_t)(x + PLAIN_WIDTH);
@@ -84,8 +84,8 @@ static int has_fragment(const struct job *job, struct camera_rectangle r, uint32
 	return n != 0;
 }
 
-/* Give each block that has fragments its place. r: where they may be, counted from the band's first row; n: receives
- * the pixels of these blocks */
+/* Give each block with fragments its place. r: area that fragments may be in, counted from the band's first row; n:
+ * receives the number of pixels of these blocks */
 static int place_blocks(struct job *job, struct camera_rectangle r, uint32_t *n)
 {
 	struct tracer *tr = job->tr;
@@ -101,7 +101,7 @@ static int place_blocks(struct job *job, struct camera_rectangle r, uint32_t *n)
 	return err ? err : frame_upload(tr, blocks, tr->first, blocks);
 }
 
-/* What kernels leave for n fragments and their rays. */
+/* Make room for the kernels' results for n fragments and their rays. */
 static int reserve(struct job *job, uint32_t n, uint32_t n_slots)
 {
 	struct tracer *tr = job->tr;
@@ -148,7 +148,7 @@ struct plain_launch plain_launch_of(const struct job *job, struct camera_rectang
 	               .factors = b->visibility, .layers = *one, .halves = b->halves, .floats = b->floats);
 }
 
-/* The same launch where light comes from all around, asked of so many directions. */
+/* The same launch with dome light from `samples` directions. */
 static struct plain_launch in_dome(const struct job *job, struct plain_launch a, uint32_t samples)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
@@ -161,7 +161,7 @@ static struct plain_launch in_dome(const struct job *job, struct plain_launch a,
 	return a;
 }
 
-/* Colours by programs, for plain without lights that have been asked (0) or for plain_shadow. */
+/* Compute colours by programs, for plain, before rays to lights are traced (0), or for plain_shadow. */
 static int run_programs(struct job *job, struct plain_launch a, uint32_t blocks, uint32_t n_slots)
 {
 	if (!(job->prepared.has_fragment_programs || (n_slots && job->prepared.has_vertex_programs)))
@@ -170,7 +170,7 @@ static int run_programs(struct job *job, struct plain_launch a, uint32_t blocks,
 	return launch_plain_program(job->tr->dev, blocks, &a);
 }
 
-/* plain and plain_shadow, or their steps. */
+/* Run plain and plain_shadow, or their steps. */
 static int run_plain(const struct job *job, const struct plain_launch *a, uint32_t blocks)
 {
 	struct device *dev = job->tr->dev;
@@ -195,7 +195,7 @@ static int run_plain_shadow(const struct job *job, const struct plain_launch *a,
 	return err ? err : launch_plain_show_dimmed(dev, a->n, a);
 }
 
-/* All but what light from elsewhere does, and rays to lights; then what it does. */
+/* Draw everything except the effect of other surfaces on light, trace rays to lights, then draw that effect. */
 static int draw_lit(struct job *job, const struct accel_space *space, struct plain_launch a, uint32_t blocks)
 {
 	const uint32_t n_slots = a.n_slots;
@@ -213,7 +213,7 @@ static int draw_lit(struct job *job, const struct accel_space *space, struct pla
 	return run_plain_shadow(job, &a, blocks);
 }
 
-/* The same where light comes from all around, too: all planes at the end. */
+/* The same with dome light: all planes are drawn at the end. */
 static int draw_in_dome(struct job *job, const struct accel_space *space, struct plain_launch a, uint32_t blocks)
 {
 	int err = launch_plain_dome(job->tr->dev, blocks, &a);
@@ -225,14 +225,14 @@ static int draw_in_dome(struct job *job, const struct accel_space *space, struct
 	return err ? err : launch_plain_shadow(job->tr->dev, blocks, &a);
 }
 
-/* Whether one kernel does all of a plain frame: there are no rays but the camera's, nor programs of fragments. */
+/* 1 if one kernel draws a plain frame entirely: there are only camera rays, and no fragment programs. */
 static int is_whole(const struct job *job)
 {
 	return frame_in_packets(job) && !job->prepared.has_fragment_programs &&
 	       (job->options->mode == TRACER_GL || !(job->prepared.n_light_slots || dome_is_there(job)));
 }
 
-/* Without rays: what the camera finds goes into the planes at once. r: where the view's pixels are */
+/* Draw without secondary rays: the fragments found by the camera go directly into the planes. r: area of the view */
 static int draw_whole(struct job *job, struct camera_rectangle r, const struct compose_request *request)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
@@ -252,17 +252,17 @@ static int draw_whole(struct job *job, struct camera_rectangle r, const struct c
 	                                 .halves = b->halves, .floats = b->floats));
 }
 
-/* In steps: the camera, then all that rays and programs have a say in. */
+/* Draw in steps: camera rays, then everything that depends on secondary rays and programs. */
 static int draw_in_steps(struct job *job, const struct accel_space *space, struct camera_rectangle r, uint32_t n_slots,
                          const struct compose_request *request)
 {
 	const struct segment *segment = job->prepared.segments;
 	const uint32_t blocks = plain_blocks(job->width, job->n_rows);
-	uint32_t n, samples = 0; /* places of pixels; looks around of each */
+	uint32_t n, samples = 0; /* n: places of pixels; samples: dome rays of each */
 	struct plain_launch a;
 	int err = r.x0 < r.x1 ? segment_trace_camera(job, segment, r, 0) : 0;
 
-	/* Kernels of one pixel a work item have places for all: nobody waits for the camera to end. */
+	/* Kernels with one pixel per work item have places for all pixels, so there is no wait for the camera pass. */
 	n = blocks * PLAIN_WIDTH * PLAIN_ROWS;
 	if (!err)
 		err = frame_in_packets(job) ? place_blocks(job, segment_in_buffers(job, r), &n) : frame_reserve(job->tr, blocks, 1);
@@ -283,7 +283,7 @@ int plain_band(struct job *job)
 	const struct camera_rectangle r = segment_rectangle(job, job->prepared.views[segment->view].scissor);
 	const uint32_t n_slots = space ? job->prepared.n_light_slots : 0;
 	struct compose_request request;
-	/* The top band comes first; a device that lacks memory may have given all away since. */
+	/* The top band is drawn first. A device that ran out of memory may have released the buffer since. */
 	int err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
 
 	if (!err)

@@ -6,7 +6,7 @@
 #include "base/err.h"
 
 #define POOL_LEAST_WORDS ((size_t)1 << 20)
-/* items are written to the device so many words at a time, or one by one where they are larger */
+/* words written to the device at a time; larger items are written one by one */
 #define STAGE_WORDS ((size_t)1 << 18)
 
 struct pool_entry {
@@ -25,7 +25,7 @@ static struct pool_entry *find(const struct pool *pool, const uint64_t hash[2])
 	return &pool->entries[slot];
 }
 
-/* Room for n more entries, at most half full. */
+/* Make room for n more entries, with the table at most half full. */
 static int reserve_entries(struct pool *pool, size_t n)
 {
 	struct pool old = *pool;
@@ -54,14 +54,14 @@ static void forget_all(struct pool *pool)
 	pool->n_entries = pool->used = 0;
 }
 
-/* Items on their way to the device, one behind the other: each write costs a thread of the device that is woken and
- * waited for. */
+/* Items collected for the device, one after the other: each write costs waking and waiting for a thread of the
+ * device. */
 struct stage {
 	uint32_t *words;
 	size_t room, n; /* words */
 };
 
-/* Write what is staged: the last words that the pool uses. */
+/* Write the staged words: the last ones that the pool uses. */
 static int write_stage(const struct pool *pool, struct device *dev, struct stage *stage)
 {
 	const size_t n = stage->n;
@@ -72,7 +72,7 @@ static int write_stage(const struct pool *pool, struct device *dev, struct stage
 	                             n * sizeof(*stage->words));
 }
 
-/* Take an item in behind all others. */
+/* Add an item after all others. */
 static int add_item(struct pool *pool, struct device *dev, struct stage *stage, const struct pool_item *item,
                     pool_fill *fill)
 {
@@ -114,7 +114,7 @@ int pool_place(struct pool *pool, struct device *dev, struct pool_item *items, s
 	}
 	err = device_reserve(dev, &pool->buffer, (pool->capacity ? pool->capacity : 1) * sizeof(uint32_t));
 	if (err == ERR_MEMORY && pool->capacity > total) {
-		/* Without room for more. */
+		/* Without spare room. */
 		pool->capacity = total;
 		err = device_reserve(dev, &pool->buffer, total * sizeof(uint32_t));
 	}
@@ -132,7 +132,7 @@ int pool_place(struct pool *pool, struct device *dev, struct pool_item *items, s
 		err = write_stage(pool, dev, &stage);
 	free(stage.words);
 	if (err)
-		forget_all(pool); /* what has a place may not be there */
+		forget_all(pool); /* items that have places may not have been written */
 	return err;
 }
 

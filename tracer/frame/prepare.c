@@ -15,7 +15,7 @@
 
 /* --- Matrices ---------------------------------------------------------------------------------------------------- */
 
-/* Rows of the inverse transpose of the upper 3 x 3, rescaled as RESCALE_NORMAL wants (sec. 2.11.3). */
+/* Compute the rows of the inverse transpose of the upper 3 x 3, rescaled for RESCALE_NORMAL (sec. 2.11.3). */
 static void normal_matrix(const float m[16], int rescale, float out[12])
 {
 	double a[3][3], cofactor[3][3], det, scale = 1, length = 0;
@@ -59,7 +59,8 @@ static void identity_rows(float rows[12])
 	rows[0] = rows[5] = rows[10] = 1;
 }
 
-/* An affine inverse in rows; 0 where the matrix is projective or has none that floats can hold. */
+/* Compute the affine inverse in rows. @return 0 if the matrix is projective, or has no inverse within the range of
+ * floats */
 static int invert_affine(const float m[16], float rows[12])
 {
 	float inverse[16], finite = 0;
@@ -69,7 +70,7 @@ static int invert_affine(const float m[16], float rows[12])
 	for (int i = 0; i < 16; i++)
 		finite += 0 * inverse[i];
 	rows_from_columns(inverse, rows);
-	/* Almost flat: a ray in object space would have no accuracy left. */
+	/* Almost flat: rays in object space would be too inaccurate. */
 	for (int row = 0; row < 3; row++)
 		for (int col = 0; col < 3; col++)
 			if (fabsf(rows[row * 4 + col]) > 1e12f)
@@ -165,8 +166,8 @@ void prepare_fill_indices(const void *object, uint32_t *words)
 
 /*
  * Padding of an instance's boxes. Snapping moves vertices by up to 1/512 pixel on each axis, and camera rays must find
- * every triangle that covers a pixel centre then. The padding is that step at the farthest corner of the mesh's box, in
- * object units, and a little for the rounding of large coordinates.
+ * every triangle that then covers a pixel centre. The padding is the size of that step at the farthest corner of the
+ * mesh's box, in object units, plus a little for the rounding of large coordinates.
  */
 static float box_pad(const float (*positions)[4], uint32_t n, const float clip_from_box[16],
                      const struct instance *instance, const struct view *view)
@@ -175,7 +176,7 @@ static float box_pad(const float (*positions)[4], uint32_t n, const float clip_f
 	float farthest = 0, size = 0, eye = 0, shrink = 0;
 
 	for (uint32_t v = 0; v < n; v++)
-		for (int a = 0; a < 4; a++) { /* one instruction each, where fminf is a call */
+		for (int a = 0; a < 4; a++) { /* each compiles to one instruction, while fminf is a call */
 			lo[a] = positions[v][a] < lo[a] ? positions[v][a] : lo[a];
 			hi[a] = positions[v][a] > hi[a] ? positions[v][a] : hi[a];
 		}
@@ -209,7 +210,7 @@ void prepare_pad(struct prepared *p, uint32_t i, const float (*positions)[4], ui
 	instance->pad = box_pad(positions, n, clip, instance, &p->views[g->view]);
 }
 
-/* is_depth: it leaves depth alone, and is solid */
+/* is_depth: the instance writes only depth, and is solid */
 static uint32_t instance_flags(const struct scene_material *m, enum prepared_shape shape, int is_depth)
 {
 	uint32_t flags = 0;
@@ -229,7 +230,7 @@ static uint32_t instance_flags(const struct scene_material *m, enum prepared_sha
 	return flags;
 }
 
-/* Sides that rays to lights pass by how their corners run; 0: each hit has to be asked, or none passes. */
+/* Sides, by winding, that rays to lights pass through; 0: none, or each hit has to be tested. */
 static uint32_t passes_of(const struct scene_material *m)
 {
 	if (!(m->surface.hidden & SCENE_ONE_SIDED) || m->surface.transmit > 0)
@@ -243,7 +244,7 @@ static enum prepared_shape shape_of_mode(uint32_t mode)
 	return mode == GL_LINE ? PREPARED_LINES : mode == GL_POINT ? PREPARED_POINTS : PREPARED_FILLED;
 }
 
-/* Its tree is in eye space. */
+/* Bake an instance: its tree is in eye space. */
 static void bake(struct instance *instance)
 {
 	instance->flags |= INSTANCE_BAKED;
@@ -272,7 +273,7 @@ int prepare_is_displaced(const struct scene *scene, const struct scene_instance 
 	       ((const struct scene_program *)(scene->programs + (program - 1)))->outputs >> SCENE_RESULT_POSITION & 1;
 }
 
-/* Largest coordinate of object space's origin in eye space; 0 where that is at infinity. */
+/* Largest eye-space coordinate of the object-space origin; 0 if that is at infinity. */
 static float distance_of_origin(const float modelview[16])
 {
 	const float largest = fmaxf(fmaxf(fabsf(modelview[12]), fabsf(modelview[13])), fabsf(modelview[14]));
@@ -351,8 +352,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 		                       m->surface.transmit > 0 || m->polygon_stipple != SCENE_NONE || asked;
 }
 
-/* One scene instance in the shapes that its polygon modes give it; filled ones in the first pass, others in the
- * second. */
+/* Add one scene instance in the shapes of its polygon modes: filled ones in the first pass, others in the second. */
 static void add_shapes(const struct scene *scene, struct prepared *p, struct segment *segment, uint32_t index,
                        int screen)
 {
@@ -379,7 +379,7 @@ static void add_shapes(const struct scene *scene, struct prepared *p, struct seg
 
 /* --- Segments ---------------------------------------------------------------------------------------------------- */
 
-/* 1 where a program discards fragments or gives them another depth. */
+/* 1 if a program discards fragments or changes their depth. */
 static int program_moves(const struct scene *scene, const struct scene_material *m)
 {
 	const struct scene_program *program = scene_program_of(scene, m->fragment_program);
@@ -387,7 +387,7 @@ static int program_moves(const struct scene *scene, const struct scene_material 
 	return program && (program->kills || program->sets_depth);
 }
 
-/* The camera mode that answers for a draw on its own. */
+/* The camera mode that suits a single draw. */
 static uint32_t draw_mode(const struct scene *scene, const struct scene_instance *instance)
 {
 	const struct scene_material *m = &scene->materials[instance->material];
@@ -398,7 +398,7 @@ static uint32_t draw_mode(const struct scene *scene, const struct scene_instance
 	if (!m->depth_test || !m->depth_write || m->blend || m->alpha_test || m->stencil_test || m->logic_op ||
 	    m->srgb || (m->color_mask & 7) != 7 || m->clip_plane_mask || m->polygon_stipple != SCENE_NONE ||
 	    m->samples_off || m->alpha_to_coverage || m->surface.hidden & SCENE_LEFT_OUT || (m->polygon_offset & 4) ||
-	    program_moves(scene, m) || scene->depth_bits < 24) /* of more bits, 24 count (pixel_depth_steps) */
+	    program_moves(scene, m) || scene->depth_bits < 24) /* with more bits, 24 are used (pixel_depth_steps) */
 		return CAMERA_COLUMN;
 	if (m->depth_func == GL_LESS)
 		return CAMERA_NEAREST_LESS;
@@ -410,13 +410,14 @@ static uint32_t multisampled(const struct scene *scene, uint32_t instance)
 	return scene->materials[scene->instances[instance].material].multisample;
 }
 
-/* Instances that one pass answers, before instances are made. */
+/* Range of scene instances for one camera pass, before prepared instances are made. */
 struct cut {
 	uint32_t first, end, mode;
 	uint32_t clear_first, clear_count;
 };
 
-/* Most passes over one view between clears; where draws alternate more often, one of columns answers for the rest. */
+/* Most passes over one view between clears. If draws alternate more often, a single pass with columns draws the
+ * rest. */
 #define MAX_PASSES 4
 
 static uint32_t cut_scene(const struct scene *scene, struct cut *cuts)
@@ -467,7 +468,7 @@ static void make_view(const struct scene_view *from, const float shift[2], struc
 	memcpy(view->depth_range, from->depth_range, sizeof(view->depth_range));
 	memcpy(view->scissor, from->scissor, sizeof(view->scissor));
 	if (!mat4_invert(inverse, from->projection))
-		return; /* an inverse of zeros: the view has no rays, only screen geometry */
+		return; /* keep an inverse of zeros: the view has no rays, only screen geometry */
 	for (int i = 0; i < 16; i++)
 		largest = fabsf(inverse[i]) <= largest ? largest : fabsf(inverse[i]);
 	if (largest < 1e30f)
@@ -480,16 +481,17 @@ static int draws_to_window(const struct scene *scene, uint32_t instance)
 }
 
 /*
- * What is drawn on either side of a clear of the window's depth is never compared, and may not lie where it seems to: a
- * sky of small models about the viewer, or a hand before the world. Neither stands in the other's light: they are
- * layers, with an eye space each. A backdrop shares that of the world, whose rays find it where they miss.
+ * Draws before and after a clear of the window's depth are never compared, and may not be at their apparent distance:
+ * for example a sky of small models around the viewer, or a hand in front of the world. They must not shadow each
+ * other, so they are layers with separate eye spaces. A backdrop shares the eye space of the world, whose rays see it
+ * if they miss.
  */
 struct layers {
 	uint32_t backdrop, n;
-	int written; /* 1: something of the last one left depth */
+	int written; /* 1: a draw of the last layer wrote depth */
 };
 
-/* The layer of what follows the clears of a cut. */
+/* Number of the layer that follows the clears of a cut. */
 static uint32_t layer_of(const struct scene *scene, const struct cut *cut, struct layers *layers)
 {
 	for (uint32_t i = cut->clear_first; i < cut->clear_first + cut->clear_count; i++) {
@@ -586,7 +588,7 @@ void prepared_free(struct prepared *p)
 	memset(p, 0, sizeof(*p));
 }
 
-/* Instances of segments of an eye space; 0: secondary rays meet none of them. */
+/* Number of instances in segments of an eye space; 0: secondary rays hit none of them. */
 static uint32_t instances_in(const struct prepared *p, uint32_t space)
 {
 	uint32_t n = 0, met = 0;

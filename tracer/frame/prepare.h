@@ -33,10 +33,10 @@ struct prepared {
 	uint32_t n_instances;
 
 	struct view *views;             /* [n_views], one for each segment that draws */
-	struct scene_view *scene_views; /* [n_views]: the scene's views; a clear of the depth starts a new eye space */
+	struct scene_view *scene_views; /* [n_views]: the scene's views; clears of the depth separate eye spaces */
 	uint32_t n_views;
 
-	uint32_t n_vertices;  /* of all instances */
+	uint32_t n_vertices;  /* vertices of all instances */
 	uint32_t n_texcoords; /* [4] each */
 	uint32_t *owner;      /* [n_vertices]: instance */
 	uint8_t *skies;       /* [scene's instances]: 1 if the instance is a sky */

@@ -5,7 +5,7 @@
 #include "base/err.h"
 #include "kernels/frame/scan.h"
 
-/* The sums of chunks become what stands before each. */
+/* Replace the sums of chunks by the total before each. */
 static uint32_t add_up(uint32_t *sums, uint32_t n, int *is_full)
 {
 	uint32_t before = 0, full = 0;
@@ -21,7 +21,7 @@ static uint32_t add_up(uint32_t *sums, uint32_t n, int *is_full)
 	return before;
 }
 
-/* sums: room for those of all chunks */
+/* sums: room for the sums of all chunks */
 static int scan(struct device *dev, const struct scan_list *list, uint32_t *sums, uint32_t *total, int *is_full)
 {
 	const uint32_t n_sums = SCAN_ITEMS(list->n);

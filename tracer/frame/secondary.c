@@ -8,7 +8,7 @@
 #include "tracer/frame/hooks.h"
 #include "tracer/frame/scan.h"
 
-/* Surfaces that let light pass, one behind the other, that a ray may meet beside its bounces. */
+/* Most transmitting surfaces in a row that a ray to a light may pass, besides its bounces. */
 #define MOST_LAYERS 32u
 
 const struct accel_space *secondary_space(const struct job *job, uint32_t view, int sky)
@@ -29,19 +29,19 @@ uint32_t secondary_transport(const struct tracer_options *options)
 	return options->relight ? TRANSPORT_RELIGHT : TRANSPORT_GL;
 }
 
-/* The number of the frame that samples are scrambled by in mode path; 0: they are those of all frames. */
+/* The frame number that scrambles samples in mode path; 0: all frames use the same samples. */
 static uint32_t frame_number(const struct job *job)
 {
 	return job->options->mode == TRACER_PATH ? (uint32_t)job->scene->frame + 1 : 0;
 }
 
-/* Work items of the kernels that take SHADE_PACKET each. */
+/* Number of work items for kernels that process SHADE_PACKET items each. */
 static uint32_t packs(uint32_t n)
 {
 	return (n + SHADE_PACKET - 1) / SHADE_PACKET;
 }
 
-/* Which of n rays meet anything in a space. */
+/* Find which of n rays hit anything in a space. */
 static int occlude(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
                    union buffer_uint occluded, uint32_t n)
 {
@@ -52,7 +52,7 @@ static int occlude(struct job *job, const struct accel_space *space, uint32_t to
 	return err || !hook_objects_in(job, space) ? err : hook_objects_occlude(job, &r);
 }
 
-/* Their nearest hits. whose: which rays they are */
+/* Find the nearest hits of rays. whose: kind of rays */
 static int intersect(struct job *job, const struct accel_space *space, enum hook_rays_of whose, union buffer_ray rays,
                      union buffer_hit hits, uint32_t n)
 {
@@ -67,7 +67,7 @@ static int intersect(struct job *job, const struct accel_space *space, enum hook
 
 /* --- Lists ------------------------------------------------------------------------------------------------------- */
 
-/* A list of paths and their rays, and room for what comes of it. */
+/* A list of paths and their rays, and room for the next list. */
 struct list {
 	union buffer_path *paths, *next_paths;
 	union buffer_ray *rays, *next_rays;
@@ -80,7 +80,7 @@ static struct list path_list(struct job *job)
 	return (struct list){ &b->paths, &b->next_paths, &b->path_rays, &b->next_path_rays };
 }
 
-/* Rays to lights that go on behind what stopped them. */
+/* The list of rays to lights that continue beyond the surface that stopped them. */
 static struct list shadow_list(struct job *job)
 {
 	struct frame_buffers *b = &job->tr->buffers;
@@ -102,7 +102,7 @@ static int reserve_next(struct job *job, const struct list *list, size_t n)
 	return err ? err : launch_reserve(job->tr->dev, *list->next_rays, n);
 }
 
-/* Where n items' results go when they stand densely, by their counts: buffers.places. */
+/* Compute the positions of n items' results in a dense list from their counts, into buffers.places. */
 static int place(struct job *job, union buffer_uint counts, uint32_t n, uint32_t *total)
 {
 	struct tracer *tr = job->tr;
@@ -112,7 +112,7 @@ static int place(struct job *job, union buffer_uint counts, uint32_t n, uint32_t
 	                   total, NULL);
 }
 
-/* What came of a list's n paths, up to `slots` each, becomes the list. */
+/* Replace a list by the results of its n paths, up to `slots` each. */
 static int gather_list(struct job *job, const struct list *list, uint32_t slots, uint32_t *n)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
@@ -156,8 +156,7 @@ static int start_walk(struct job *job, const struct list *list, union buffer_ray
 	                                  .shadow_paths = *list->paths));
 }
 
-/* The stopped ones of n_rays rays that shadow_sum has left go on through what lets light pass, from surface to
- * surface. */
+/* Continue those of n_rays rays that shadow_sum left as stopped, through transmitting surfaces one after another. */
 static int walk_layers(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
                        uint32_t n_rays, float weight)
 {
@@ -183,7 +182,8 @@ static int walk_layers(struct job *job, const struct accel_space *space, uint32_
 	return err;
 }
 
-/* One of `samples` rounds of n_rays rays, already made, into buffers.visibility. to_lights: 0: they look around */
+/* Trace one of `samples` rounds of n_rays rays, already made, into buffers.visibility. to_lights: 0 for rays into the
+ * surroundings */
 static int ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
                uint32_t n_rays, uint32_t sample, uint32_t samples)
 {
@@ -218,7 +218,7 @@ int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_
 	return ask(job, space, to_lights, rays, n_rays, 0, 1);
 }
 
-/* Rays to each light a pass. */
+/* Rays to each light per pass. */
 static uint32_t light_rays(const struct job *job)
 {
 	uint32_t wide = 0;
@@ -252,7 +252,7 @@ int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t
 	return err || !hooks_has(job, HOOK_LIGHT) ? err : hooks_light(job, secondary_transport(job->options), n);
 }
 
-/* The same from what n paths hit. */
+/* The same from the hits of n paths. */
 static int trace_hit_shadows(struct job *job, const struct accel_space *space, uint32_t transport, uint32_t n)
 {
 	struct tracer *tr = job->tr;
@@ -317,7 +317,7 @@ int secondary_openness(struct job *job, const struct accel_space *space, uint32_
 
 /* --- Paths ------------------------------------------------------------------------------------------------------- */
 
-/* Which surfaces that shine each of n fragments sees, into buffers.visibility. */
+/* Find the emissive surfaces that each of n fragments sees, into buffers.visibility. */
 static int ask_emitters(struct job *job, const struct accel_space *space, uint32_t n)
 {
 	struct tracer *tr = job->tr;
@@ -448,7 +448,7 @@ int secondary_paths(struct job *job, const struct accel_space *space, const stru
 
 /* --- Photons ----------------------------------------------------------------------------------------------------- */
 
-/* One way of n photons: to what they meet. photons: room for n */
+/* Trace n photons to their next hits. photons: room for n */
 static int send(struct job *job, const struct list *list, const struct accel_space *space, uint32_t pass, uint32_t n,
                 struct photon *photons)
 {

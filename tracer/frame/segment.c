@@ -66,7 +66,7 @@ static int run_clear(struct job *job, const struct scene_clear *clear)
 	return err;
 }
 
-/* Whether of the buffers that it clears nothing is left. */
+/* 1 if a clear erases the complete contents of the buffers that it clears. */
 static int clears_whole(const struct job *job, const struct scene_clear *clear)
 {
 	const int32_t *s = clear->scissor;
@@ -117,8 +117,8 @@ int segment_clear_one(struct job *job)
 	                                 .frame = job->tr->buffers.cleared));
 }
 
-/* Whether all pixels begin alike, are drawn to by resolve_packet alone (not by a hook's rays), and go into one picture.
- * n_cleared: clears of all of them */
+/* 1 if all pixels begin with the same value, are drawn to only by resolve_packet (not by a hook's rays), and go into
+ * one picture. n_cleared: number of clears of the whole picture */
 static int clears_late(const struct job *job, uint32_t n_cleared)
 {
 	uint32_t n = 0;
@@ -172,11 +172,11 @@ int segment_trace_camera(struct job *job, const struct segment *segment, struct 
 	return traverse_camera(job->tr->dev, traverse_families[device_family(job->tr->dev)].camera, &job->tr->trees, r, &pass);
 }
 
-/* Pixels across of the blocks that the list goes by: what one work item takes of their rays (RAYS_PER_ITEM) should stay
+/* Width in pixels of the blocks that order the list: rays that share a work item (RAYS_PER_ITEM) should stay
  * together. */
 #define LIST_BLOCK 8
 
-/* Up to `limit`, a step of blocks from `at` on; the first ends at a multiple. */
+/* End of the block that starts at `at`, at most `limit`; blocks end at multiples of LIST_BLOCK. */
 static int32_t block_end(int32_t at, int32_t limit)
 {
 	const int32_t end = at - at % LIST_BLOCK + LIST_BLOCK;
@@ -185,9 +185,9 @@ static int32_t block_end(int32_t at, int32_t limit)
 }
 
 /*
- * Where each pixel's fragments go in the dense list, in buffers.first: block by block of pixels.
- * @param n_list  receives how many there are
- * @param more    receives 1 where a pixel's slots were all filled: its column may go on
+ * Compute the position of each pixel's fragments in the dense list, block by block, into buffers.first.
+ * @param n_list  receives the number of fragments
+ * @param more    receives 1 if all slots of a pixel were filled: its column may continue
  */
 static int place_fragments(struct job *job, struct camera_rectangle r, uint32_t slots, uint32_t *n_list, int *more)
 {
@@ -215,8 +215,8 @@ static int place_fragments(struct job *job, struct camera_rectangle r, uint32_t 
 }
 
 /*
- * The same in the order of pixels, by the device itself, where a work item takes one fragment and all pixels count:
- * then neither their counts nor their places go over to the host.
+ * The same in the order of pixels, computed on the device, if a work item takes one fragment and all pixels are
+ * included. Neither counts nor positions are then copied to the host.
  */
 static int place_on_device(struct job *job, uint32_t slots, uint32_t *n_list, int *more)
 {
@@ -226,7 +226,7 @@ static int place_on_device(struct job *job, uint32_t slots, uint32_t *n_list, in
 	return scan_counts(job->tr->dev, &list, n_list, more);
 }
 
-/* Whether a rectangle is all of the band. */
+/* 1 if a rectangle covers the whole band. */
 static int is_band(const struct job *job, struct camera_rectangle r)
 {
 	r = segment_in_buffers(job, r);
@@ -288,7 +288,7 @@ static int run_resolve(struct job *job, struct camera_rectangle r)
 	return packets ? launch_resolve_packet(tr->dev, n, a) : launch_resolve(tr->dev, n, a);
 }
 
-/* The fragments of the list: GL's colours, then what rays from them find. */
+/* Shade the fragments of the list: GL's colours, then the results of rays from them. */
 static int shade_list(struct job *job, uint32_t view, struct camera_rectangle r, uint32_t n)
 {
 	const struct accel_space *space = secondary_space(job, view, 0);
@@ -323,7 +323,7 @@ int segment_reserve(struct job *job, uint32_t slots)
 	return err ? err : frame_reserve(tr, sparse, (size_t)slots * job->n_pixels);
 }
 
-/* Draw a segment to the present sample; without multisampling, to all samples. */
+/* Draw a segment to the current sample; without multisampling, to all samples. */
 static int run_draws(struct job *job, const struct segment *segment)
 {
 	struct tracer *tr = job->tr;
@@ -334,7 +334,7 @@ static int run_draws(struct job *job, const struct segment *segment)
 	if (!more)
 		return 0;
 	err = segment_reserve(job, slots);
-	if (!err && slots > 1) { /* columns begin with the first fragment */
+	if (!err && slots > 1) { /* columns start at the first fragment */
 		memset(tr->counts, 0, job->n_pixels * sizeof(*tr->counts));
 		err = frame_upload(tr, after, tr->counts, job->n_pixels);
 	}
@@ -358,21 +358,21 @@ static int run_draws(struct job *job, const struct segment *segment)
 }
 
 /*
- * Where llvmpipe (Mesa 22.3.6, lp_sample_pos_4x) and Direct3D have four samples: 1/256 pixel right of and below a
+ * Positions of four samples in llvmpipe (Mesa 22.3.6, lp_sample_pos_4x) and Direct3D: 1/256 pixel right of and below a
  * pixel's centre. Rows count from the top of windows and from the bottom of framebuffer objects.
  */
 static const int32_t sample_places[SCENE_SAMPLES][2] = { { -32, -96 }, { 96, -32 }, { -96, 32 }, { 32, 96 } };
 
 /*
- * Under multisampling llvmpipe (22.3.6, lp_setup_add_scissor_planes) lets samples in the second half of the pixels
- * before a scissor rectangle pass, where they lie in the same tile. Columns and rows counted from where it counts.
+ * With multisampling, llvmpipe (22.3.6, lp_setup_add_scissor_planes) lets samples in the second half of the pixels
+ * before a scissor rectangle pass if they lie in the same tile. Columns and rows are counted from llvmpipe's origin.
  */
 static int32_t leaks(int32_t first, int32_t place)
 {
 	return first > 0 && first % 64 != 0 && place > 0;
 }
 
-/* Let a segment's view look at a sample's places. */
+/* Set a segment's view to a sample's positions. */
 static int look_at_sample(struct job *job, const struct segment *segment, uint32_t sample)
 {
 	struct view *view = &job->prepared.views[segment->view];

@@ -102,7 +102,7 @@ int tracer_check_aov(const char *aov)
 
 /* --- Frames ------------------------------------------------------------------------------------------------------ */
 
-/* Buffers of the band's pixels. */
+/* Make room for the band's pixels. */
 static int reserve_pixels(struct job *job)
 {
 	struct tracer *tr = job->tr;
@@ -134,8 +134,8 @@ static void count_undrawn(struct job *job)
 }
 
 /*
- * Rows of a band: whole tiles, and on a CPU so few that what is known of their pixels stays in its caches; a column may
- * be eight fragments. GPUs want many pixels at once.
+ * Number of rows in a band: whole tiles, and on a CPU few enough that the data of their pixels stays in its caches; a
+ * column may have eight fragments. GPUs need many pixels at once.
  */
 #define BAND_PIXELS_CPU 65536u
 #define BAND_PIXELS_COLUMNS 16384u
@@ -154,7 +154,8 @@ static uint32_t rows_of_band(const struct job *job)
 	return rows < CAMERA_TILE ? CAMERA_TILE : rows / CAMERA_TILE * CAMERA_TILE;
 }
 
-/* What pixels are before they are drawn. n_cleared: receives how many of the first segment's clears that takes in */
+/* Set pixels to their values before they are drawn. n_cleared: receives the number of the first segment's clears that
+ * this includes */
 static int begin_band(struct job *job, uint32_t *n_cleared)
 {
 	int err;
@@ -167,7 +168,7 @@ static int begin_band(struct job *job, uint32_t *n_cleared)
 	return err ? err : picture_upload_start(job);
 }
 
-/* Draw a band, and hand it on. @return 0, ERR_MEMORY or ERR_SYSTEM (reported) */
+/* Draw a band and pass on its pixels. @return 0, ERR_MEMORY or ERR_SYSTEM (reported) */
 static int trace_band(struct job *job)
 {
 	uint32_t n_cleared;
@@ -192,7 +193,7 @@ static int trace_band(struct job *job)
 	if (err)
 		return err;
 	if (job->pass > 0) {
-		/* What was added in part cannot be added again. */
+		/* A partly added pass cannot be added again. */
 		err = segment_add_pass(job, job->is_first);
 		return err == ERR_MEMORY ? device_report_lack(job->tr->dev) : err;
 	}
@@ -203,7 +204,7 @@ static int trace_band(struct job *job)
 	return job->image ? compose_band(job, job->image) : picture_read_band(job, job->picture);
 }
 
-/* Where the device has too little memory for a band, bands have half as many rows from now on. */
+/* Draw all bands. If the device has too little memory for a band, halve the rows of bands from then on. */
 static int trace_bands(struct job *job)
 {
 	uint32_t end = job->height;
@@ -242,8 +243,8 @@ static void forget_frame(struct job *job)
 	job->is_placed = 0;
 }
 
-/* Bring what all bands need to the device: state, vertices, trees. A frame that is there already only moves, where that
- * is enough. */
+/* Upload what all bands need: state, vertices, trees. A frame that is already on the device is only moved, if that
+ * suffices. */
 static int place_frame(struct job *job, const float shift[2])
 {
 	int err;
@@ -273,7 +274,8 @@ static int place_frame(struct job *job, const float shift[2])
 	return err;
 }
 
-/* One look at the frame, band by band, top rows first. It stays on the device for the next; forget_frame ends that. */
+/* Trace one pass over the frame, band by band, top rows first. The frame stays on the device for the next pass until
+ * forget_frame. */
 static int trace_pass(struct job *job)
 {
 	float shift[2] = { 0, 0 };
@@ -281,11 +283,12 @@ static int trace_pass(struct job *job)
 
 	if (job->pass > 0)
 		sample_shift(job->turn, job->pass, shift);
-	/* Of several passes each looks at one place in a pixel; the one that makes GL's picture has GL's samples. */
+	/* With several passes, each samples one position in a pixel. The pass that makes GL's picture has GL's
+	 * samples. */
 	job->n_samples = job->scene->samples > 1 && job->pass == 0 ? SCENE_SAMPLES : 1;
 	err = place_frame(job, shift);
 	if (err == ERR_MEMORY) {
-		/* Bands of the frame before may have taken it. */
+		/* Bands of the previous frame may have taken the memory. */
 		forget_frame(job);
 		release_band(job->tr);
 		err = place_frame(job, shift);
@@ -301,7 +304,7 @@ static int check_size(const struct scene *scene)
 	                  (unsigned long long)scene->frame, scene->width, scene->height);
 }
 
-/* From scene->start on. */
+/* Draw a scene's picture, from scene->start on. */
 static int draw_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture)
 {
 	const struct tracer_options options = { .mode = TRACER_GL };
@@ -323,13 +326,13 @@ static int draw_picture(struct tracer *tracer, const struct scene *scene, struct
 
 /* --- What frames begin with -------------------------------------------------------------------------------------- */
 
-/* A scene, and its start that was made here. */
+/* A scene, and the start made for it here. */
 struct begun {
 	struct scene scene;
 	struct scene_picture *start;
 };
 
-/* Let a scene begin with what the one before it shows. begun->start: to be freed, whatever is returned */
+/* Make a scene start from the picture of the one before it. begun->start: freed by the caller, also after an error */
 static int begin_with_before(struct tracer *tracer, const struct scene *scene, struct begun *begun)
 {
 	const struct scene *before = scene_before_use(scene->before);
@@ -351,7 +354,7 @@ int tracer_render_picture(struct tracer *tracer, const struct scene *scene, stru
 	struct scene rest;
 	int err;
 
-	/* The frame that was rendered last is often the one that the next begins with. */
+	/* The next frame often starts from the last one rendered. */
 	if (picture_recall(&tracer->drawn, scene, picture))
 		return 0;
 	if (!scene->before && picture_rest(&tracer->drawn, scene, &rest)) {
@@ -376,10 +379,10 @@ int tracer_render_picture(struct tracer *tracer, const struct scene *scene, stru
 
 /* --- Samples ----------------------------------------------------------------------------------------------------- */
 
-/* A frame's samples on their way: what was told and measured of them. */
+/* Progress of a frame's samples: times and noise. */
 struct sampling {
-	double start_s, last_s; /* of the first sample; where the last ended */
-	uint32_t next; /* after so many, the noise is measured and the preview shown; then again after half as many more */
+	double start_s, last_s; /* start of the first sample; end of the last one */
+	uint32_t next; /* number of samples before noise is measured and the preview shown; then increased by half */
 	struct noise noise;
 };
 
@@ -392,7 +395,7 @@ static int show_all(struct job *job, struct image *img)
 	return err ? err : trace_pass(job);
 }
 
-/* The picture of the samples so far. It leaves no trace in those to come. */
+/* Show the picture of the samples so far, without affecting later ones. */
 static int show_preview(struct job *job, uint32_t passes)
 {
 	struct image img = { .width = 0 };
@@ -410,8 +413,7 @@ static int show_preview(struct job *job, uint32_t passes)
 	return err;
 }
 
-/* After a pass: whether it was the last that is needed. passes: so many are summed up; one more is to come in any
- * case */
+/* After a pass, decide whether it was the last one needed. passes: number summed so far; one more always follows */
 static int is_enough(struct job *job, struct sampling *s, uint32_t passes, int *enough)
 {
 	const struct tracer_options *o = job->options;
@@ -435,7 +437,7 @@ static int is_enough(struct job *job, struct sampling *s, uint32_t passes, int *
 	return err;
 }
 
-/* The scene of a sample while the shutter is open. It begins with what the frame begins with. */
+/* Get the scene of a sample while the shutter is open. It starts from the same picture as the frame. */
 static int expose(struct job *job, const struct scene *frame, struct scene *exposed)
 {
 	const struct tracer_options *o = job->options;
@@ -453,7 +455,7 @@ static int expose(struct job *job, const struct scene *frame, struct scene *expo
 	return 0;
 }
 
-/* One sample of all pixels. */
+/* Trace one sample of all pixels. */
 static int sum_pass(struct job *job)
 {
 	const uint32_t is_path = job->options->mode == TRACER_PATH;
@@ -473,8 +475,8 @@ static int sum_pass(struct job *job)
 	return err;
 }
 
-/* All passes but the one through pixel centres. Where sampling may end early, in order: the first samples lie evenly by
- * themselves. */
+/* Trace all passes except the one through pixel centres. If sampling may end early, they are in order: any first
+ * samples are spread evenly. */
 static int sum_passes(struct job *job)
 {
 	const struct tracer_options *o = job->options;
@@ -498,7 +500,8 @@ static int sum_passes(struct job *job)
 	return err;
 }
 
-/* From scene->start on. unknown: receives how many pixels show something from before that is not there */
+/* Render a scene to an image, from scene->start on. unknown: receives the number of pixels that show unknown contents
+ * from before */
 static int draw_image(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
                       struct image *img, uint64_t *unknown)
 {
@@ -512,7 +515,7 @@ static int draw_image(struct tracer *tracer, const struct scene *scene, const st
 	if (known.rays == 0)
 		known.rays = 16;
 	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
-	/* The pass through pixel centres comes last: values that are no means are its own. */
+	/* The pass through pixel centres comes last: values that are not averaged come from it. */
 	err = sum_passes(&job);
 	if (!err)
 		err = show_all(&job, img);
@@ -532,7 +535,7 @@ static int draw_image(struct tracer *tracer, const struct scene *scene, const st
 	return err == ERR_MEMORY ? device_report_lack(tracer->dev) : err;
 }
 
-/* How many pixels show something from before a scene that is not made yet. */
+/* Count the pixels that show contents from before the scene, from a frame that is not made yet. */
 static int count_unknown(struct tracer *tracer, const struct scene *scene, uint64_t *unknown)
 {
 	struct scene_picture *picture = picture_blank(scene);
@@ -551,7 +554,7 @@ int tracer_render(struct tracer *tracer, const struct scene *scene, const struct
 {
 	const struct tracer_undrawn undrawn = tracer->undrawn;
 	const struct tracer_added added = tracer->added;
-	const int is_quick = options->samples <= 1 && !options->photons; /* it is not worth a look beforehand */
+	const int is_quick = options->samples <= 1 && !options->photons; /* not worth a look beforehand */
 	uint64_t unknown = 0;
 	struct begun begun;
 	int err = 0;

@@ -17,7 +17,7 @@
 
 enum tracer_mode {
 	TRACER_WHITTED,  /* GL's picture, shadows, mirrors, glass */
-	TRACER_GL,       /* only GL's picture: beauty equals gl */
+	TRACER_GL,       /* GL's picture only: beauty equals gl */
 	TRACER_NORMALS,  /* eye-space normals as colours */
 	TRACER_AO,       /* how open each surface is, as grey */
 	TRACER_AO_PHONG, /* the same over GL's picture */

@@ -42,8 +42,7 @@ int traverse_camera(struct device *dev, enum kernel kernel, const struct travers
 /* Rays through a space that is not empty, and the buffer for the results: one of occluded and hits. */
 struct traverse_rays {
 	const struct accel_space *space;
-	uint32_t n, to_lights;      /* to_lights: 1: KERNEL_occlude_* ignores the sides through which instances let
-	                             * light pass */
+	uint32_t n, to_lights;      /* to_lights: 1: KERNEL_occlude_* ignores the sides that transmit light */
 	union buffer_ray rays;
 	union buffer_uint occluded; /* KERNEL_occlude_* */
 	union buffer_hit hits;      /* KERNEL_intersect_* */

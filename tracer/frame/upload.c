@@ -28,7 +28,7 @@ int upload_attributes(struct job *job)
 	return err;
 }
 
-/* Meshes are the scene's and those that lines and points became. */
+/* Uploads the scene's meshes and those of expanded lines and points. */
 int upload_indices(struct job *job)
 {
 	const struct scene *scene = job->scene;
@@ -149,7 +149,7 @@ int upload_state(struct job *job)
 	return err;
 }
 
-/* One pool of BLASes: the part that is not there yet, or all of it where the buffer has to grow. */
+/* Upload one pool of BLASes: the part that is not on the device yet, or all of it if the buffer has to grow. */
 static int upload_pool(struct tracer *tr, enum blas_part part, struct device_buffer **buffer)
 {
 	const struct accel_pool pool = accel_pool(tr->accel, part);
@@ -158,7 +158,7 @@ static int upload_pool(struct tracer *tr, enum blas_part part, struct device_buf
 	int err = 0;
 
 	if (!*buffer || pool.n > tr->tree_room[part]) {
-		/* A buffer that grew once will again. */
+		/* A buffer that grew once will grow again. */
 		const size_t room = *buffer ? pool.n + pool.n / 4 : pool.n;
 
 		err = device_reserve(tr->dev, buffer, room * size);
@@ -173,7 +173,7 @@ static int upload_pool(struct tracer *tr, enum blas_part part, struct device_buf
 	return err;
 }
 
-/* The pools that the device's kernels walk. asks_boxes: a hook walks binary trees, too */
+/* Upload the pools that the device's kernels traverse. asks_boxes: 1 if a hook traverses binary trees, too */
 static int upload_mesh_trees(struct tracer *tr, int asks_boxes)
 {
 	struct traverse_trees *t = &tr->trees;
@@ -196,7 +196,7 @@ static int upload_mesh_trees(struct tracer *tr, int asks_boxes)
 		const int walks = pools[i].families >> device_family(tr->dev) & 1;
 
 		if (!walks)
-			tr->tree_room[pools[i].part] = 0; /* frames without the hook do not keep it up to date */
+			tr->tree_room[pools[i].part] = 0; /* frames without the hook do not update it */
 		if (walks || (asks_boxes && pools[i].part == BLAS_NODES2))
 			err = upload_pool(tr, pools[i].part, pools[i].buffer);
 	}

@@ -29,7 +29,7 @@ extern "C" {
 
 namespace {
 
-/* Large enough for any frame, small enough that a lying header cannot take all memory. */
+/* Large enough for any frame, but small enough that a false header cannot exhaust memory. */
 constexpr int64_t MAX_PIXELS = int64_t(1) << 28;
 constexpr int MAX_CHANNELS = 256;
 constexpr int STRIP_ROWS = 64;
@@ -37,7 +37,7 @@ constexpr int STRIP_ROWS = 64;
 /* Debian package fonts-dejavu-core. */
 constexpr const char *FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
-/** Held shared by each thread that is within OpenImageIO. */
+/** Held shared by each thread that is in OpenImageIO. */
 std::shared_mutex in_use;
 
 bool is_integer(const OIIO::TypeDesc &format)
@@ -46,8 +46,9 @@ bool is_integer(const OIIO::TypeDesc &format)
 }
 
 /**
- * The most pixels that a file of so many bytes may hold, where the format packs runs at most: readers of these give
- * pixels for what is not there. 128 values a byte, a bit a pixel. Others end where their file does (read_part).
+ * Most pixels in a file of `bytes` bytes, for formats that at most pack runs: their readers return pixels that the file
+ * does not have. A byte has at most 128 values, and a pixel at least one bit. Other readers stop at the end of the file
+ * (read_part).
  */
 int64_t most_pixels(const std::string &format, uint64_t bytes)
 {
@@ -57,22 +58,22 @@ int64_t most_pixels(const std::string &format, uint64_t bytes)
 	return MAX_PIXELS;
 }
 
-/** A channel of an image, and which one of a file's it is. */
+/** A channel of an image, and its index in the file. */
 struct channel {
 	float *plane;
 	int from;
-	bool is_number; /* an unsigned integer of OpenEXR, which stands for itself; OpenImageIO makes parts of the
-	                   largest one of it */
+	bool is_number; /* an unsigned integer of OpenEXR, read unchanged; OpenImageIO would divide it by the largest
+	                 * one */
 };
 
-/** Where all parts of a file lie together: each may have data of its own window in one display window. */
+/** The window around the data of all parts of a file; each part may have its own data window in the common display
+ * window. */
 struct windows {
 	int x, y, width, height;
 	int n_parts;
 };
 
-/** Whether memory holds the channels of one part: a head claims what it likes, and too much of it is its file's
- * defect. */
+/** Can the channels of one part be allocated? A head may claim any size; if it is too large, the file is at fault. */
 bool has_room(const windows &all, int n_channels)
 {
 	void *volatile planes = calloc(size_t(all.width) * size_t(all.height),
@@ -82,7 +83,7 @@ bool has_room(const windows &all, int n_channels)
 	return planes != nullptr;
 }
 
-/** Channels of one part, all 0 yet; `prefix` (a part's name and a dot, or nothing) goes before their names. */
+/** Add the channels of one part, all 0; `prefix` (a part's name and a dot, or nothing) is prepended to their names. */
 int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &prefix, bool is_exr,
              std::vector<channel> &out, const char *path)
 {
@@ -113,7 +114,8 @@ int add_part(struct image *img, const OIIO::ImageSpec &spec, const std::string &
 	return 0;
 }
 
-/** Pixels of one part, in strips: a file that ends early costs what it holds, not what its head claims. */
+/** Read the pixels of one part in strips: the time for a truncated file then depends on its contents, not on its
+ * head. */
 int read_part(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, int part, const windows &all,
               const std::vector<channel> &channels, const char *path)
 {
@@ -144,7 +146,7 @@ int read_part(OIIO::ImageInput &in, const OIIO::ImageSpec &spec, int part, const
 	return 0;
 }
 
-/** Lines as display_write leaves them: "relume:NAME TEXT". */
+/** Parse the lines of a description by display_write: "relume:NAME TEXT". */
 int add_description(struct image *img, const std::string &text)
 {
 	std::istringstream lines(text);
@@ -177,8 +179,8 @@ int add_attributes(struct image *img, const OIIO::ImageSpec &spec)
 }
 
 /**
- * What goes before the names of a part's channels: nothing for the first part and where the names hold the layer
- * already, else the part's name.
+ * Prefix of the names of a part's channels: nothing for the first part or if the names already contain the layer, else
+ * the part's name.
  */
 std::string prefix_of(const OIIO::ImageSpec &spec, int part)
 {
@@ -189,7 +191,7 @@ std::string prefix_of(const OIIO::ImageSpec &spec, int part)
 	return name + ".";
 }
 
-/** Look at the heads of all parts that are read. */
+/** Check the heads of all parts to be read. */
 int find_windows(OIIO::ImageInput &in, bool all_parts, int64_t most, windows &out, const char *path)
 {
 	const OIIO::ImageSpec first = in.spec();
@@ -231,14 +233,14 @@ int read_image(struct image *img, const char *path)
 
 	if (int err = heads_check(path))
 		return err;
-	/* Numbers as stored: colour of transparent pixels must not be multiplied down. */
+	/* Keep values as stored: colours of transparent pixels must not be premultiplied. */
 	config.attribute("oiio:UnassociatedAlpha", 1);
 	auto in = OIIO::ImageInput::open(path, &config);
 	if (!in)
 		return err_report(ERR_INPUT, path, "%s", OIIO::geterror().c_str());
 	const OIIO::ImageSpec first = in->spec();
 	const int64_t most = most_pixels(in->format_name(), OIIO::Filesystem::file_size(path));
-	const bool all_parts = strcmp(in->format_name(), "openexr") == 0; /* pages of a TIFF are other pictures */
+	const bool all_parts = strcmp(in->format_name(), "openexr") == 0; /* pages of a TIFF are separate pictures */
 
 	windows all;
 
@@ -262,7 +264,7 @@ int read_image(struct image *img, const char *path)
 	}
 	if (int err = add_attributes(img, first))
 		return err;
-	/* Where the data lies, for place.h. */
+	/* Record the position of the data window for place.h. */
 	if (all.x == first.full_x && all.y == first.full_y && all.width == first.full_width && all.height == first.full_height)
 		return 0;
 	return image_set_attribute(img, "relume:window", "%d %d %d %d", all.x - first.full_x, all.y - first.full_y,
@@ -305,12 +307,13 @@ pid_t oiio_fork(void)
 
 	in_use.lock();
 	const int n_threads = pool->size();
-	/* ends its threads and waits for them: a child would have none of them, but the locks that they held */
+	/* end its threads and wait for them: a child would have their locks but not the threads */
 	pool->~thread_pool();
 	const pid_t process = fork();
 	new (pool) OIIO::thread_pool(process ? n_threads : 0);
 	if (process == 0) {
-		new (&in_use) std::shared_mutex; /* it knows its owner by a number that is another one here */
+		new (&in_use) std::shared_mutex; /* reset it: it identifies its owner by a thread id, which differs in
+		                                  * the child */
 		return 0;
 	}
 	in_use.unlock();
@@ -373,7 +376,7 @@ int oiio_compare_yee(const uint8_t *a, const uint8_t *b, uint32_t width, uint32_
 		for (int i = 0; i < 2; i++) {
 			OIIO::ImageBuf wrapped(codes, const_cast<uint8_t *>(i ? b : a));
 
-			/* it wants floats of its own */
+			/* compare_Yee needs its own copy as floats */
 			if (!pics[i].copy(wrapped, OIIO::TypeDesc::FLOAT))
 				return err_report(ERR_SYSTEM, NULL, "Yee's metric: %s", pics[i].geterror().c_str());
 		}
