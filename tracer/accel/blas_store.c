@@ -20,7 +20,7 @@
 #include "tracer/accel/tree.h"
 
 #define SUFFIX ".tree"
-/* Recount the folder after writing 1 / COUNT_SHARE of its limit */
+/* Recount the folder after writing 1 / COUNT_SHARE of its limit. If it exceeds the limit, shrink it to FULL_SHARE. */
 #define COUNT_SHARE 16
 #define FULL_SHARE(most) ((most) / 4 * 3)
 

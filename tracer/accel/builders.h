@@ -5,15 +5,17 @@
  *
  * The same input gives the same tree with any number of threads.
  *
- *   BVH The binned surface area heuristic (Wald 2007, "On fast construction of SAH-based bounding volume hierarchies").
- *         SBVH The same with spatial splits (Stich, Friedrich and Dietrich 2009, "Spatial splits in bounding volume
- *         hierarchies"): a triangle may be in several leaves, in each with the bounds of one piece. KD A kd-tree by the
- *         surface area heuristic (kd_split.h), stored as a binary tree whose boxes bound the contents of the cells.
- *         Cells never overlap: a triangle is in the leaf of every cell it crosses, in each with the bounds of its piece
- *         there. If no plane pays but the leaf would be too large, or if room or depth runs out, items are divided as
- *         for BVH. LBVH The fastest to build (Lauterbach, Garland, Sengupta, Luebke and Manocha 2009, "Fast BVH
- *         construction on GPUs"): items are sorted along a Morton curve by their centres and divided at the curve's
- *         cell boundaries. A subtree becomes one leaf if that is cheaper.
+ *   BVH   The binned surface area heuristic (Wald 2007, "On fast construction of SAH-based bounding volume
+ *         hierarchies").
+ *   SBVH  The same with spatial splits (Stich, Friedrich and Dietrich 2009, "Spatial splits in bounding volume
+ *         hierarchies"): a triangle may be in several leaves, in each with the bounds of one piece.
+ *   KD    A kd-tree by the surface area heuristic (kd_split.h), stored as a binary tree whose boxes bound the contents
+ *         of the cells. Cells never overlap: a triangle is in the leaf of every cell it crosses, in each with the
+ *         bounds of its piece there. If no plane pays but the leaf would be too large, or if room or depth runs out,
+ *         items are divided as for BVH.
+ *   LBVH  The fastest to build (Lauterbach, Garland, Sengupta, Luebke and Manocha 2009, "Fast BVH construction on
+ *         GPUs"): items are sorted along a Morton curve by their centres and divided at the curve's cell boundaries. A
+ *         subtree becomes one leaf if that is cheaper.
  */
 #pragma once
 
@@ -24,10 +26,13 @@
 #include "tracer/accel/tree.h"
 
 /*
- * ROW(kind, name, build, spare, keep_from, help) kind ACCEL_kind; its number is part of the file name of stored trees,
- *   so new rows go at the end name its name on command lines build its function spare most items that cutting may add
- *   per triangle; 0: the builder cuts none keep_from fewest triangles of a tree worth storing on disk; smaller trees
- *   are built as fast as they are read help its description in help texts
+ * ROW(kind, name, build, spare, keep_from, help)
+ *   kind       ACCEL_kind; its number is part of the file name of stored trees, so new rows go at the end
+ *   name       its name on command lines
+ *   build      its function
+ *   spare      most items that cutting may add per triangle; 0: the builder cuts none
+ *   keep_from  fewest triangles of a tree worth storing on disk; smaller trees are built as fast as they are read
+ *   help       its description in help texts
  */
 #define TREE_BUILDERS(ROW) \
 	ROW(BVH, "bvh", bvh_build_sah, 0, 16384, "binned") \

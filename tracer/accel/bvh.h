@@ -41,9 +41,9 @@ void bvh_refit(struct node2 *nodes, uint32_t n_nodes, const struct bvh_box *boxe
 enum bvh_leaves { BVH_ITEMS, BVH_BLOCKS };
 
 /**
- * Collapse a binary tree into one with eight children a node: open the largest inner child until there are eight. With
- * BVH_BLOCKS every subtree of at most eight items becomes one block, whose leaf has the block's number as child and a
- * count of 1.
+ * Collapse a binary tree into one with eight children per node: open the largest inner child until there are eight.
+ * With BVH_BLOCKS every subtree of at most eight items becomes one block, whose leaf has the block's number as child
+ * and a count of 1.
  *
  * @param nodes2    a binary tree
  * @param nodes     receives at most n_nodes2 nodes

@@ -122,7 +122,7 @@ static void quantise_axis(const struct node8 *in, int axis, const int slot_of[8]
 	out->exponents |= exponent << 8 * axis;
 }
 
-/* --- Which nodes become one -------------------------------------------------------------------------------------- */
+/* --- Choosing nodes ---------------------------------------------------------------------------------------------- */
 
 /*
  * Lowest cost of a subtree as at most n children of one node, and how to reach it (Ylitie, Karras and Laine 2017,
@@ -164,7 +164,7 @@ static float share(const struct node2 *node, const struct plan *plans, uint32_t 
 	return best;
 }
 
-/* area: half area of the node's box. */
+/* area: area of the node's box, as from side_area. */
 static void plan_node(const struct node2 *node, const struct plan *plans, float area, struct plan *out)
 {
 	out->cost[1] = share(node, plans, 8, &out->left[1]) + BVH_COST_NODE * area;

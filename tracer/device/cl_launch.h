@@ -20,7 +20,7 @@ void cl_pace_free(struct cl_pace *pace);
 /**
  * Queue a kernel whose arguments have been set.
  * @param group  work items in a work group
- * @param pace   pace of this kernel on this queue; NULL: a single launch, however long it runs
+ * @param pace   speed of this kernel on this queue; NULL: a single launch, however long it runs
  * @return CL_SUCCESS, or the OpenCL error of the part that could not be queued
  */
 cl_int cl_launch(cl_command_queue queue, cl_kernel kernel, size_t n_items, size_t group, struct cl_pace *pace);

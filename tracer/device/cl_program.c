@@ -93,8 +93,8 @@ static void mix(uint64_t key[2], const void *bytes, size_t n)
 	key[1] = XXH64(bytes, n, key[1]);
 }
 
-/* Hash everything that a compiled program depends on. The file is named after the device alone, so a new source or
- * driver replaces the old file. */
+/* Hash everything that a compiled program depends on. The file is named after the kernels, the hook and the device, so
+ * a new version of the kernels or the driver replaces the old file. */
 static void name_program(cl_device_id device, const struct kernel_file *kernels, struct around around,
                          const struct cl_keeping *keeping, char path[PATH_MAX], uint64_t key[2])
 {

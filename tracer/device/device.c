@@ -399,7 +399,7 @@ void device_release(struct device *dev, struct device_buffer **buffer)
 	*buffer = NULL;
 }
 
-/* --- Where the time goes ----------------------------------------------------------------------------------------- */
+/* --- Profile ----------------------------------------------------------------------------------------------------- */
 
 static double clock_of(clockid_t clock)
 {

@@ -12,9 +12,9 @@
 /* X(NAME, word): families of traversal kernels. All find the same hits; which one is fastest depends on the type of
  * device. */
 #define DEVICE_FAMILIES(X) \
-	X(PACKETS, packets)       /* many rays a work item in vectors, eight-wide nodes in rows: CPUs */ \
-	X(BINARY, binary)         /* one ray a work item, binary trees */ \
-	X(COMPRESSED, compressed) /* one ray a work item, eight-wide nodes of 80 bytes: GPUs */
+	X(PACKETS, packets)       /* many rays per work item in vectors, eight-wide nodes in rows: CPUs */ \
+	X(BINARY, binary)         /* one ray per work item, binary trees */ \
+	X(COMPRESSED, compressed) /* one ray per work item, eight-wide nodes of 80 bytes: GPUs */
 
 enum device_family {
 #define DEVICE_FAMILY_ENUM(name, word) FAMILY_##name,
@@ -38,7 +38,7 @@ enum device_type { DEVICE_CPU, DEVICE_GPU, DEVICE_ACCELERATOR, N_DEVICE_TYPES };
 /* An OpenCL device as listed by `relume devices`. */
 struct device_description {
 	unsigned number; /* its index in the list, as accepted by device_open */
-	char name[128], platform[64], driver[64], version[128]; /* version: OpenCL's, with the driver's additions */
+	char name[128], platform[64], driver[64], version[128]; /* version: of OpenCL, with the driver's additions */
 	enum device_type type;
 	unsigned units;
 	unsigned width; /* floats that a unit processes at once: vector lanes, or work items in lockstep; 0: unknown */
@@ -70,8 +70,9 @@ int device_find(const struct device_description *list, size_t n, const char *cho
  *                from `relume devices`, a type ("cpu", "gpu", "accelerator": the first of it), or part of a device's
  *                name.
  * @param threads compute threads if the device is a CPU; 0: all cores
- * @param out receives the device; close with device_close @return 0; ERR_SYSTEM (reported; if there is no OpenCL
- * device, with the package to install); ERR_USAGE (no such choice)
+ * @param out     receives the device; close with device_close
+ * @return 0; ERR_SYSTEM (reported; if there is no OpenCL device, with the package to install); ERR_USAGE (no such
+ *         choice)
  */
 int device_open(const char *choice, unsigned threads, struct device **out);
 void device_close(struct device **dev);

@@ -47,7 +47,7 @@ const char *fault_words(const struct fault *fault, char *text, size_t size)
 	return text;
 }
 
-/* --- Who is at work ---------------------------------------------------------------------------------------------- */
+/* --- Activity of devices ----------------------------------------------------------------------------------------- */
 
 struct fault_place *fault_open(int device)
 {
@@ -317,7 +317,7 @@ void fault_refuse(struct fault_place *place, int code, int is_build, const char 
 	_exit(-ERR_SYSTEM);
 }
 
-/* --- Calls that do not come back --------------------------------------------------------------------------------- */
+/* --- Calls that hang --------------------------------------------------------------------------------------------- */
 
 static int is_hung(struct fault_place *p, double most_s, double passed_s)
 {

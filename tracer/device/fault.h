@@ -4,10 +4,12 @@
  * memory shared with a parent process (verbs/render/guard.h). The parent then starts a new process with the next family
  * of kernels.
  *
- * What is at fault for a signal: - A thread between fault_enter and fault_leave is in the driver: the driver is at
- *   fault. - A thread outside these calls, with a frame of this program on its stack: this program is at fault. Nothing
- *   is noted. - Any other thread belongs to the driver. It works for the devices that have launches in progress. A
- *   signal sent by another process is not a fault.
+ * The cause of a signal:
+ *   - A thread between fault_enter and fault_leave is in the driver: the driver is at fault.
+ *   - A thread outside these calls, with a frame of this program on its stack: this program is at fault. Nothing is
+ *     noted.
+ *   - Any other thread belongs to the driver. It works for the devices that have launches in progress.
+ * A signal sent by another process is not a fault.
  */
 #pragma once
 

@@ -18,8 +18,8 @@ int compose_fetch(struct job *job, const struct compose_request *request, struct
 
 /**
  * Fill in a band's rows. Bands are passed from the top down.
- * @param job  job; buffers.frame has the band's pixels; if there were several passes, buffers.sums has the sums of all
- *             but this one
+ * @param job  buffers.frame has the band's pixels; if there were several passes, buffers.sums has the sums of all but
+ *             this one
  * @param img  the image of compose_start
  * @return 0 or ERR_SYSTEM (reported)
  */

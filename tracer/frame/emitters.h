@@ -7,8 +7,8 @@
 
 /**
  * Upload a list of the frame's emissive triangles, space by space.
- * @param job        job whose geometry is placed; job->emissions receives a list for each space, empty if nothing is to
- *                   be sampled
+ * @param job        its geometry must have been placed; job->emissions receives a list for each space, empty if nothing
+ *                   is to be sampled
  * @param transport  TRANSPORT_*: only those of mode path have lists
  * @return 0, ERR_MEMORY or ERR_SYSTEM (reported)
  */

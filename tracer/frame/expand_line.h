@@ -9,7 +9,7 @@
 
 /**
  * Project a clipped line and add the quads of its visible dashes. Advances in->dashed by its length.
- * @param a, b ends of the line; changed
+ * @param a, b    ends of the line; changed
  * @param offset  added to the depth of both ends
  * @return 0 or ERR_SYSTEM (reported)
  */

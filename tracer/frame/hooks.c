@@ -139,7 +139,7 @@ int hooks_light_hits(struct job *job, uint32_t transport, uint32_t n)
 	                                    .n_rays = n_rays, .visibility = b->visibility));
 }
 
-/* --- Rays in place of a camera's --------------------------------------------------------------------------------- */
+/* --- Rays that replace a camera's -------------------------------------------------------------------------------- */
 
 int hooks_see(struct job *job, uint32_t n)
 {

@@ -11,8 +11,8 @@
 #include "kernels/gl/vertex_program.h"
 #include "tracer/frame/frame.h"
 
-#define LEAST_FACTOR 0.2 /* cotangents of half the angle that a picture spans: 157 degrees, */
-#define MOST_FACTOR 20.0 /* 6 */
+#define LEAST_FACTOR 0.2 /* cotangent of half the field of view: 157 degrees */
+#define MOST_FACTOR 20.0 /* 6 degrees */
 #define MOST_W 1e15f /* nothing is drawn beyond */
 #define MOST_ROUNDING 1e-5f /* rounding error of a depth, relative to its position's largest number */
 #define USUAL_FACTOR 2.414213562 /* 45 degrees */

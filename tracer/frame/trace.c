@@ -324,7 +324,7 @@ static int draw_picture(struct tracer *tracer, const struct scene *scene, struct
 	return err == ERR_MEMORY ? device_report_lack(tracer->dev) : err;
 }
 
-/* --- What frames begin with -------------------------------------------------------------------------------------- */
+/* --- Start pictures ---------------------------------------------------------------------------------------------- */
 
 /* A scene, and the start made for it here. */
 struct begun {

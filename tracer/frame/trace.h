@@ -50,10 +50,8 @@ struct tracer_options {
 	                   * 0: no limit */
 	float reach;      /* reach of openness in eye-space units; 0: unlimited */
 	enum accel_kind accel; /* builder of mesh trees */
-	int accel_asked;       /* 0: accel is only a default; trees are kd-trees if the program called
-	                        * rtBuildKdTreeEXT */
-	struct blas_store *store; /* keeps trees for other runs, or NULL; must live until the last tracer_render
-	                           * returns */
+	int accel_asked;       /* 0: accel is a default, replaced by kd-trees if the program called rtBuildKdTreeEXT */
+	struct blas_store *store; /* keeps trees for other runs, or NULL; used until the last tracer_render returns */
 	unsigned band_rows; /* rows of pixels drawn at a time; 0: chosen for the device. Does not affect the picture */
 	int relight;      /* 1: light each pixel (Phong) instead of interpolating vertex colours */
 	const struct hook *hook; /* a user's hook, or NULL; already passed to device_take_hook */

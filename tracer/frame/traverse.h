@@ -34,8 +34,12 @@ struct traverse_family {
 };
 extern const struct traverse_family traverse_families[N_DEVICE_FAMILIES];
 
-/** * Trace camera rays. @param kernel KERNEL_camera_* @param r the view's camera_rectangle @return 0 or ERR_SYSTEM
- * (reported) */
+/**
+ * Trace camera rays.
+ * @param kernel  KERNEL_camera_*
+ * @param r       the view's camera_rectangle
+ * @return 0 or ERR_SYSTEM (reported)
+ */
 int traverse_camera(struct device *dev, enum kernel kernel, const struct traverse_trees *trees,
                     struct camera_rectangle r, const struct camera_pass_launch *pass);
 

@@ -1,9 +1,10 @@
 /*
  * Display pictures: 8-bit codes for a screen, as PNG or JPEG, from linear light x.
  *
- *     y = x 2^exposure y = K + (1 - K) m t / (1 + (m - 1) t) if y > K = 0.6; t = (y - K) / (white - K), at most 1; m =
- *     (white - K) / (1 - K) code = floor(255 sRGB(y) + 1/2 + d) d: an ordered dither of 8 x 8 pixels, within 0.45; 0 if
- *     off
+ *     y = x 2^exposure
+ *     y = K + (1 - K) m t / (1 + (m - 1) t)    if y > K = 0.6;  t = (y - K) / (white - K), at most 1;
+ *                                              m = (white - K) / (1 - K)
+ *     code = floor(255 sRGB(y) + 1/2 + d)      d: an ordered dither of 8 x 8 pixels, within 0.45; 0 if off
  *
  * The shoulder begins smoothly at K and reaches 1 at `white`. With white = 1 it is a straight line, so GL's picture is
  * unchanged. The dither is below half a code, so areas whose colour is exactly a code stay uniform. A code depends only

@@ -35,8 +35,7 @@ struct image {
 	size_t n_channels;
 	struct image_attribute *attributes; /* owned; relume:trace, relume:frame, relume:device, ... */
 	size_t n_attributes;
-	uint8_t *outside; /* owned; [height][width]: 1 if the file has no such pixel (place.h); NULL: the file has all
-	                   * pixels */
+	uint8_t *outside; /* owned; [height][width]: 1 if the file has no such pixel (place.h); NULL: it has all */
 };
 
 /** Free everything; the struct is empty (all zero) afterwards. */
