@@ -41,8 +41,7 @@ struct accel_cache {
 	struct placed_blas *entries;
 	size_t n, capacity;
 	size_t capacities[N_BLAS_PARTS]; /* capacity of each pool, in items */
-	uint32_t *table; /* open-addressing hash table of entries' indices; SCENE_NONE: free; its size is a power of
-	                  * two */
+	uint32_t *table; /* hash table, open addressing: indices of entries, SCENE_NONE: free; a power of two */
 	size_t table_size;
 	uint64_t frame;
 };

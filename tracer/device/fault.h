@@ -54,7 +54,7 @@ struct fault_place {
 	const char *_Atomic program; /* program being built; NULL: none */
 	atomic_uint calls;    /* odd: a thread is in the driver */
 	atomic_uint launched; /* launches that have not been waited for */
-	atomic_uint n_new;    /* of these, kernels never waited for so far: the driver may still be compiling them */
+	atomic_uint n_new;    /* launched kernels never waited for so far: the driver may still be compiling them */
 	enum kernel new[FAULT_NEW];
 	unsigned char known[N_KERNELS];
 	/* For fault_look: */

@@ -358,8 +358,8 @@ static int run_draws(struct job *job, const struct segment *segment)
 }
 
 /*
- * Positions of four samples in llvmpipe (Mesa 22.3.6, lp_sample_pos_4x) and Direct3D: 1/256 pixel right of and below a
- * pixel's centre. Rows count from the top of windows and from the bottom of framebuffer objects.
+ * Positions of four samples in llvmpipe (Mesa 22.3.6, lp_sample_pos_4x) and Direct3D, in 1/256 pixel right of and below
+ * a pixel's centre. Rows count from the top of windows and from the bottom of framebuffer objects.
  */
 static const int32_t sample_places[SCENE_SAMPLES][2] = { { -32, -96 }, { 96, -32 }, { -96, 32 }, { 32, 96 } };
 

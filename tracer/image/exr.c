@@ -89,8 +89,7 @@ static int read_attributes(exr_context_t file, struct image *img)
 
 		if (exr_get_attribute_by_index(file, 0, EXR_ATTR_LIST_FILE_ORDER, i, &a) != EXR_ERR_SUCCESS)
 			continue;
-		if (a->type == EXR_ATTR_STRING && strcmp(a->name, "type") == 0) /* the part's type, which the writer
-		                                                                 * sets automatically */
+		if (a->type == EXR_ATTR_STRING && strcmp(a->name, "type") == 0) /* set by the writer */
 			continue;
 		if (a->type == EXR_ATTR_STRING) {
 			rc = image_set_attribute(img, a->name, "%.*s", (int)a->string->length, a->string->str);

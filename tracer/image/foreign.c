@@ -122,8 +122,7 @@ static void serve(int channel)
 	signal(SIGTERM, SIG_DFL);
 	while (take_request(STDERR_FILENO + 1, path, &pipe)) {
 		if (fork() == 0) {
-			prctl(PR_SET_PDEATHSIG, SIGKILL); /* the server ends with the command, whose end closes the
-			                                   * channel */
+			prctl(PR_SET_PDEATHSIG, SIGKILL); /* end with the command, whose end closes the channel */
 			close(STDERR_FILENO + 1);
 			answer(path, pipe);
 			_exit(0);

@@ -62,8 +62,7 @@ int64_t most_pixels(const std::string &format, uint64_t bytes)
 struct channel {
 	float *plane;
 	int from;
-	bool is_number; /* an unsigned integer of OpenEXR, read unchanged; OpenImageIO would divide it by the largest
-	                 * one */
+	bool is_number; /* OpenEXR's unsigned integers, read unchanged; OpenImageIO would scale them */
 };
 
 /** The window around the data of all parts of a file; each part may have its own data window in the common display
@@ -312,8 +311,7 @@ pid_t oiio_fork(void)
 	const pid_t process = fork();
 	new (pool) OIIO::thread_pool(process ? n_threads : 0);
 	if (process == 0) {
-		new (&in_use) std::shared_mutex; /* reset it: it identifies its owner by a thread id, which differs in
-		                                  * the child */
+		new (&in_use) std::shared_mutex; /* a new one: its owner's number differs in the child */
 		return 0;
 	}
 	in_use.unlock();
