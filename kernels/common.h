@@ -1,8 +1,9 @@
 /*
- * Shading is written in the common subset of C11 and OpenCL C 1.2. This header gives it names for mathematics, and
- * small vectors. Text that includes only this and shared.h compiles as kernel and as C twin.
+ * Shading is written in the common subset of C11 and OpenCL C 1.2. This header names the maths functions and defines
+ * small vectors. Code that includes only this and shared.h compiles both as a kernel and as its C twin.
  *
- * Both sides compile without contraction (-ffp-contract=off; the pragma below): the twin is the kernel's specification.
+ * Both sides compile without contraction (-ffp-contract=off; the pragma below), because the twin is the kernel's
+ * specification.
  */
 #pragma once
 

@@ -5,19 +5,19 @@
 
 #include <stddef.h>
 
-/* One .cl file with everything it includes in place: one OpenCL program. */
+/* One .cl file with all its includes expanded: one OpenCL program. */
 struct kernel_file {
 	const char *name; /* path in the source tree */
 	const char *text;
-	int gathers; /* 1: it consists of other .cl files, whose kernels it has too */
+	int gathers; /* 1: it includes other .cl files, and so also has their kernels */
 };
 extern const struct kernel_file kernel_files[];
 extern const size_t n_kernel_files;
 
-/* Where a kernel is defined: in one file, and in those that gather it. */
+/* A file that defines a kernel: the .cl file itself, or one that includes it. */
 struct kernel_place {
 	const char *kernel;
-	size_t file; /* in kernel_files */
+	size_t file; /* index in kernel_files */
 };
 extern const struct kernel_place kernel_places[];
 extern const size_t n_kernel_places;

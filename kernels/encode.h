@@ -1,6 +1,6 @@
 /*
- * sRGB's transfer function (IEC 61966-2-1) both ways: GL's numbers are display-referred, light is not. By nothing but
- * what is the same on every device.
+ * sRGB's transfer function (IEC 61966-2-1) in both directions, since GL's numbers are display-referred and light is
+ * linear. It uses only operations that give the same result on every device.
  */
 #pragma once
 

@@ -1,8 +1,8 @@
-/* sRGB's transfer function both ways (encode.h, one_lanes.h). */
+/* sRGB's transfer function in both directions (encode.h, one_lanes.h). */
 
 /*
- * x^exponent for 1e-30 < x < 1e15 and exponents up to 2.4, to 5e-7 of itself: log2 of the mantissa by its series in (m
- * - 1) / (m + 1), times the exponent, and 2 to that by its own series.
+ * x^exponent for 1e-30 < x < 1e15 and exponents up to 2.4, with a relative error of 5e-7: log2 of the mantissa by its
+ * series in (m - 1) / (m + 1), times the exponent, then 2 to that power by its own series.
  */
 LANES REAL encode_power(REAL x, float exponent)
 {
@@ -10,7 +10,8 @@ LANES REAL encode_power(REAL x, float exponent)
 	REAL m = OF_BITS((bits & 0x7fffffu) + 0x3f3504f3u), e = TO_REAL(AS_INT(bits) >> 23);
 	REAL s = (m - 1.0f) / (m + 1.0f), s2 = s * s;
 	REAL log2m = s * (2.885390082f + s2 * (0.961796694f + s2 * (0.577078016f + s2 * 0.412198583f)));
-	REAL up = exponent * (e + log2m) + 12582912.0f, whole = up - 12582912.0f; /* 1.5 x 2^23 rounds what is added */
+	REAL up = exponent * (e + log2m) + 12582912.0f, whole = up - 12582912.0f; /* adding 1.5 x 2^23 rounds to an
+                                                                               * integer */
 	REAL f = (exponent * e - whole) + exponent * log2m;
 	REAL p = 1.0f + f * (0.6931471806f + f * (0.2402265070f + f * (0.0555041087f + f * (0.0096181291f +
 	         f * (0.0013333558f + f * 0.0001540353f)))));
@@ -18,7 +19,7 @@ LANES REAL encode_power(REAL x, float exponent)
 	return p * OF_BITS((BITS(up) - 0x4b400000u + 127u) << 23);
 }
 
-/* Display-referred to linear light; odd. */
+/* Display-referred to linear light; an odd function. */
 LANES REAL encode_linear(REAL display)
 {
 	REAL x = OF_BITS(BITS(display) & 0x7fffffffu), large = CHOOSE(x < 1.0e15f, x, SAME(1.0e15f));
@@ -28,7 +29,7 @@ LANES REAL encode_linear(REAL display)
 	return OF_BITS(BITS(y) | (BITS(display) & 0x80000000u));
 }
 
-/* And back. */
+/* Linear light to display-referred. */
 LANES REAL encode_display(REAL linear)
 {
 	REAL x = OF_BITS(BITS(linear) & 0x7fffffffu), large = CHOOSE(x < 1.0e14f, x, SAME(1.0e14f));
@@ -38,13 +39,13 @@ LANES REAL encode_display(REAL linear)
 	return OF_BITS(BITS(y) | (BITS(linear) & 0x80000000u));
 }
 
-/* A colour of GL as light, where that is what is followed. */
+/* A GL colour as light, if the transport works in linear light. */
 LANES VEC3 stage_light(uint32_t transport, VEC3 c)
 {
 	return transport == TRANSPORT_LINEAR ? V3(encode_linear(c.x), encode_linear(c.y), encode_linear(c.z)) : c;
 }
 
-/* And back: what the pixel's operations of OpenGL take. */
+/* The inverse: light as the number that OpenGL's per-fragment operations expect. */
 LANES VEC3 stage_number(uint32_t transport, VEC3 c)
 {
 	return transport == TRANSPORT_LINEAR ? V3(encode_display(c.x), encode_display(c.y), encode_display(c.z)) : c;

@@ -1,7 +1,7 @@
 /*
- * Every kernel and its arguments, listed once. From a list come the kernel's signature in OpenCL C (KERNEL_ARGUMENTS),
- * the fields that its C twin reads (struct LIST_arguments, here) and those that the host sets (struct LIST_launch,
- * tracer/device/launch.h). A kernel's own header says what it computes.
+ * The single list of all kernels and their arguments. Each list generates the kernel's signature in OpenCL C
+ * (KERNEL_ARGUMENTS), the fields that its C twin reads (struct LIST_arguments, here) and those that the host sets
+ * (struct LIST_launch, tracer/device/launch.h). A kernel's own header says what it computes.
  */
 #pragma once
 
@@ -16,7 +16,7 @@
 	X(node2) X(node8) X(node8c) X(triangle) X(triangle8) X(face8) X(dome_place) X(emitter) \
 	X(layer_clear) X(photon) X(query_point) X(query_nearest) X(query_body) X(query_contact) X(hook_answer) X(hook_object)
 
-/* Types by one word each, for lists of arguments alone. Some structs stand in no buffer but are passed by value. */
+/* One-word type names, used only in argument lists. Some of these structs are never in a buffer but passed by value. */
 #define KERNEL_ELEMENT(word) typedef struct word element_##word;
 KERNEL_STRUCTS(KERNEL_ELEMENT)
 KERNEL_ELEMENT(scene_clear)
@@ -32,36 +32,36 @@ typedef float element_float;
 /*
  * ARGUMENTS_LIST(IN, OUT, VALUE, GROUP, AND), in the kernel's order:
  *   IN(element, name)     a buffer that is read
- *   OUT(element, name)    a buffer that is written; where noted it is read as well
+ *   OUT(element, name)    a buffer that is written, and also read where noted
  *   VALUE(element, name)  a value
  *   GROUP(list, name)     the arguments of another list, a struct in C
  */
 
 /* A frame's data as shading reads it. */
 #define ARGUMENTS_tables(IN, OUT, VALUE, GROUP, AND) \
-	IN(geometry, geometries) AND()      /* per instance */ \
+	IN(geometry, geometries) AND()      /* one per instance */ \
 	IN(scene_material, materials) AND() IN(scene_light, lights) AND() IN(scene_unit, units) AND() \
 	IN(scene_current, currents) AND() \
 	IN(float, attributes) AND()         /* vertex arrays of all meshes */ \
-	IN(uint, indices) AND()             /* and their indices */ \
-	IN(shaded_vertex, vertices) AND()   /* what the vertex stage made of them */ \
+	IN(uint, indices) AND()             /* indices of all meshes */ \
+	IN(shaded_vertex, vertices) AND()   /* output of the vertex stage */ \
 	IN(float, texcoords) AND()          /* [4] for each vertex and enabled unit */ \
 	IN(texture_image, textures) AND() IN(uint, texels) AND() \
 	IN(uint, stipples)                  /* 32 rows each */
 
-/* Camera rays: kernels/camera/camera.h. Kernels differ in what their trees are made of. */
+/* Camera rays: kernels/camera/camera.h. The kernels differ in the type of their trees' nodes. */
 #define ARGUMENTS_camera_pass(IN, OUT, VALUE, GROUP, AND) \
 	VALUE(uint, view_index) AND() IN(view, views) AND() \
 	VALUE(uint, width) AND()            /* of the drawable */ \
 	VALUE(uint, height) AND() \
-	VALUE(camera_rectangle, rectangle) AND() /* the pixels that are looked through */ \
-	VALUE(uint, first_pixel) AND()      /* the number of the pixel that stands first in the buffers below */ \
+	VALUE(camera_rectangle, rectangle) AND() /* pixels to trace */ \
+	VALUE(uint, first_pixel) AND()      /* number of the first pixel in the buffers below */ \
 	VALUE(uint, mode) AND()             /* CAMERA_NEAREST_LESS, CAMERA_NEAREST_LEQUAL or CAMERA_COLUMN */ \
 	IN(window_vertex, window) AND()     /* at instance.vertex_first */ \
 	IN(float, clip) AND()               /* [4]: the same vertices in clip space */ \
-	IN(uint, after) AND()               /* per pixel; CAMERA_COLUMN only, any buffer otherwise */ \
+	IN(uint, after) AND()               /* one per pixel, for CAMERA_COLUMN; in other modes any buffer */ \
 	OUT(fragment, fragments) AND() \
-	OUT(uint, counts)                   /* per pixel: fragments written */
+	OUT(uint, counts)                   /* fragments written, one per pixel */
 #define ARGUMENTS_CAMERA(IN, OUT, VALUE, GROUP, AND, node, triangle) \
 	GROUP(camera_pass, pass) AND() IN(instance, instances) AND() \
 	IN(node2, top) AND()                /* accel.top2 */ \
@@ -74,13 +74,13 @@ typedef float element_float;
 /* Other rays: kernels/rays/rays.h. _packet and _wide share trees. */
 #define ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
 	VALUE(uint, n_rays) AND() IN(ray, rays) AND() \
-	VALUE(uint, top_first) AND()        /* accel_space.top8_first; _binary and _compressed: top2_first */ \
+	VALUE(uint, top_first) AND()        /* accel_space.top8_first; for _binary and _compressed: top2_first */ \
 	IN(top_node, top) AND() IN(uint, instance_list) AND() IN(instance, instances) AND() IN(node, nodes) AND() \
 	IN(triangle, triangles) AND()
 #define ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
 	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
-	VALUE(uint, to_lights) AND()        /* 1: rays to lights, which pass some sides: INSTANCE_PASS_* */ \
-	OUT(uint, occluded)                 /* 1 where anything is hit, else 0 */
+	VALUE(uint, to_lights) AND()        /* 1: rays to lights, which pass through some sides: INSTANCE_PASS_* */ \
+	OUT(uint, occluded)                 /* 1 if anything is hit, else 0 */
 #define ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
 	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) OUT(hit, hits)
 #define ARGUMENTS_occlude_wide(IN, OUT, VALUE, GROUP, AND) \
@@ -101,7 +101,7 @@ typedef float element_float;
 	VALUE(uint, n) AND() IN(node2, nodes) AND() IN(triangle, triangles)
 #define ARGUMENTS_query_all(IN, OUT, VALUE, GROUP, AND) \
 	ARGUMENTS_QUERY(IN, OUT, VALUE, GROUP, AND) AND() IN(ray, rays) AND() \
-	VALUE(uint, most) AND()             /* hits that are kept of each ray */ \
+	VALUE(uint, most) AND()             /* maximum number of hits kept per ray */ \
 	OUT(hit, hits) AND() OUT(uint, counts)
 #define ARGUMENTS_query_distance(IN, OUT, VALUE, GROUP, AND) \
 	ARGUMENTS_QUERY(IN, OUT, VALUE, GROUP, AND) AND() IN(query_point, points) AND() OUT(query_nearest, nearest)
@@ -109,92 +109,92 @@ typedef float element_float;
 	ARGUMENTS_QUERY(IN, OUT, VALUE, GROUP, AND) AND() IN(query_body, bodies) AND() OUT(query_contact, contacts)
 #define ARGUMENTS_query_sphere(IN, OUT, VALUE, GROUP, AND) ARGUMENTS_query_box(IN, OUT, VALUE, GROUP, AND)
 
-/* Shading. In these, `n` counts what there is one work item for, unless noted. */
+/* Shading. `n` is the number of work items, and says what each one is, unless noted. */
 #define ARGUMENTS_vertex(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() \
-	IN(uint, owners) AND()              /* per vertex: its instance */ \
+	IN(uint, owners) AND()              /* each vertex's instance */ \
 	VALUE(uint, height) AND() VALUE(uint, n) AND() \
 	OUT(shaded_vertex, shaded) AND()    /* tables.vertices */ \
 	OUT(window_vertex, windows) AND() \
 	OUT(float, clips) AND()             /* [4] */ \
 	OUT(float, coords)                  /* tables.texcoords */
 #define ARGUMENTS_vertex_program(IN, OUT, VALUE, GROUP, AND) \
-	ARGUMENTS_vertex(IN, OUT, VALUE, GROUP, AND) AND() OUT(uint, programs) /* these and shaded: read as well */
+	ARGUMENTS_vertex(IN, OUT, VALUE, GROUP, AND) AND() OUT(uint, programs) /* this and shaded: also read */
 #define ARGUMENTS_window(IN, OUT, VALUE, GROUP, AND) \
 	IN(geometry, geometries) AND() IN(view, views) AND() IN(uint, owners) AND() IN(float, clips) AND() \
 	VALUE(uint, height) AND() VALUE(uint, n) AND() OUT(window_vertex, windows)
 #define ARGUMENTS_gather(IN, OUT, VALUE, GROUP, AND) \
 	IN(fragment, sparse) AND()          /* `slots` a pixel */ \
-	IN(uint, counts) AND()              /* per pixel: fragments in its slots */ \
+	IN(uint, counts) AND()              /* fragments in each pixel's slots */ \
 	VALUE(uint, slots) AND() \
-	IN(uint, first) AND()               /* per pixel: its place in the list */ \
+	IN(uint, first) AND()               /* index of each pixel's first fragment in the list */ \
 	OUT(fragment, list) AND() \
-	OUT(uint, pixels) AND()             /* per fragment in the list */ \
-	OUT(uint, after) AND()              /* read as well; as camera_pass takes it */ \
+	OUT(uint, pixels) AND()             /* one per fragment in the list */ \
+	OUT(uint, after) AND()              /* also read; as in camera_pass */ \
 	VALUE(camera_rectangle, rectangle) AND() VALUE(uint, width) AND() \
-	VALUE(uint, first_pixel) AND()      /* the number of the pixel that stands first in all buffers */ \
+	VALUE(uint, first_pixel) AND()      /* number of the first pixel in all buffers */ \
 	VALUE(uint, n)
 #define ARGUMENTS_shade(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() \
-	OUT(fragment, fragments) AND()      /* read as well */ \
+	OUT(fragment, fragments) AND()      /* also read */ \
 	IN(uint, pixels) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() VALUE(uint, bits) AND() \
-	IN(float, visibility) AND()         /* [slot][fragment][3]: how much of a light's light arrives */ \
-	VALUE(uint, n_slots) AND()          /* 0: nobody has asked the lights yet */ \
+	IN(float, visibility) AND()         /* [slot][fragment][3]: fraction of a light that arrives, per colour */ \
+	VALUE(uint, n_slots) AND()          /* 0: no rays have been sent to lights yet */ \
 	VALUE(uint, transport) AND()        /* TRANSPORT_* */ \
-	VALUE(uint, albedo) AND()           /* 0: nobody asks for albedo, which stays 0 */ \
+	VALUE(uint, albedo) AND()           /* 0: albedo is not wanted and stays 0 */ \
 	VALUE(uint, n) AND()                /* fragments */ \
-	OUT(uint, programs) AND()           /* scene.programs: `program` alone reads them, and says which were ended */ \
+	OUT(uint, programs) AND()           /* scene.programs: only `program` reads them, and marks those it stopped */ \
 	VALUE(uint, output) AND()           /* scene.output */ \
 	OUT(shaded, shaded)
 #define ARGUMENTS_clear(IN, OUT, VALUE, GROUP, AND) \
 	VALUE(scene_clear, clear) AND() VALUE(camera_rectangle, rectangle) AND() VALUE(uint, width) AND() \
 	VALUE(uint, bits) AND() VALUE(uint, n) AND() \
-	OUT(frame_pixel, frame)             /* read as well */
+	OUT(frame_pixel, frame)             /* also read */
 #define ARGUMENTS_resolve(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(fragment, fragments) AND() \
-	OUT(shaded, shaded) AND()           /* read as well */ \
+	OUT(shaded, shaded) AND()           /* also read */ \
 	IN(uint, first) AND() IN(uint, counts) AND() VALUE(camera_rectangle, rectangle) AND() VALUE(uint, width) AND() \
 	VALUE(uint, bits) AND() VALUE(uint, n) AND() \
-	IN(frame_pixel, cleared) AND()      /* one. This and the next: resolve_packet alone, any buffers otherwise */ \
-	/* per row of FRAME_ROW pixels: 0 where they are still to be cleared; read as well */ \
+	IN(frame_pixel, cleared) AND()      /* one pixel. This and the next: resolve_packet alone, else any buffers */ \
+	/* per row of FRAME_ROW pixels: 0 if they still have to be cleared; also read */ \
 	OUT(uint, drawn) AND() \
-	OUT(frame_pixel, frame)             /* read as well */
+	OUT(frame_pixel, frame)             /* also read */
 #define ARGUMENTS_merge_samples(IN, OUT, VALUE, GROUP, AND) \
 	IN(frame_pixel, first) AND() IN(frame_pixel, second) AND() IN(frame_pixel, third) AND() \
 	IN(frame_pixel, fourth) AND() VALUE(uint, n) AND() OUT(frame_pixel, frame)
 #define ARGUMENTS_add_pass(IN, OUT, VALUE, GROUP, AND) \
 	IN(frame_pixel, frame) AND() \
-	VALUE(uint, turn) AND()             /* which pixels the pass had (sample_takes_part) */ \
-	VALUE(uint, first) AND()            /* 1: there are no sums yet */ \
-	VALUE(uint, first_pixel) AND()      /* the number of the frame's first pixel among those of the sums */ \
+	VALUE(uint, turn) AND()             /* selects the pass's pixels (sample_takes_part) */ \
+	VALUE(uint, first) AND()            /* 1: nothing has been summed yet */ \
+	VALUE(uint, first_pixel) AND()      /* number of the frame's first pixel in the sums */ \
 	VALUE(uint, radiant) AND()          /* as in compose_request */ \
 	VALUE(uint, n) AND() \
-	OUT(float, sums)                    /* [PASS_PARTS]; read as well */
+	OUT(float, sums)                    /* [PASS_PARTS]; also read */
 #define ARGUMENTS_compose(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(window_vertex, windows) AND() IN(frame_pixel, frame) AND() \
-	/* as resolve left them; compose_packet alone, any buffers otherwise */ \
+	/* as resolve left them; compose_packet alone; for others, any buffers */ \
 	IN(frame_pixel, cleared) AND() IN(uint, drawn) AND() \
 	IN(float, sums) AND() VALUE(uint, first_pixel) AND()      /* as in add_pass */ \
 	VALUE(compose_request, request) AND() \
 	VALUE(uint, n) AND()                /* pixels */ \
 	OUT(half, halves) AND() OUT(float, floats)
 
-/* What frames of several looks have in addition. */
+/* Additional arguments for frames of several looks. */
 #define ARGUMENTS_layers(IN, OUT, VALUE, GROUP, AND) \
-	IN(uint, counts) AND()              /* where plain_look_first says */ \
+	IN(uint, counts) AND()              /* at the offset that plain_look_first returns */ \
 	VALUE(uint, n_looks) AND() \
-	/* a bit for each look at columns, and whose fragments send rays */ \
+	/* a bit for each look that returns columns; a bit for each look whose fragments send rays */ \
 	VALUE(uint, columns) AND() VALUE(uint, asking) AND() \
 	VALUE(uint, round) AND()            /* PLAIN_BEGINS and the like */ \
-	IN(layer_clear, clears) AND() VALUE(uint, n_clears) AND() /* in order; of this round */ \
-	/* [PLAIN_KEPT] a pixel, row by row of blocks: as the last round left it; for the next */ \
+	IN(layer_clear, clears) AND() VALUE(uint, n_clears) AND() /* in order; those of this round */ \
+	/* [PLAIN_KEPT] per pixel, row by row of blocks: left by the last round; for the next one */ \
 	IN(float, before) AND() OUT(float, after) AND() \
-	OUT(uint, unknown) AND()            /* as of layered_picture, from the round that ends */ \
-	/* 1: light leaves fragments that mirror or let it through. 0: the rest are any buffers */ \
+	OUT(uint, unknown) AND()            /* as in layered_picture, beginning with the round that ends */ \
+	/* 1: light leaves fragments that mirror or refract. 0: the remaining arguments are any buffers */ \
 	VALUE(uint, mirrors) AND() \
-	/* [n / PLAIN_WIDTH]: a bit for each such fragment that shows; from layered, read by the others */ \
+	/* [n / PLAIN_WIDTH]: a bit for each such visible fragment; written by layered, read by the others */ \
 	OUT(uint, leaving) AND() \
-	/* [n / PLAIN_WIDTH]: where these stand in the next three; layered_shadow, layered_mirror */ \
+	/* [n / PLAIN_WIDTH]: where they start in the next three; layered_shadow, layered_mirror */ \
 	IN(uint, list_first) AND() \
 	/* from layered_shadow, for the kernels of paths */ \
 	OUT(fragment, list) AND() OUT(uint, list_pixels) AND() OUT(shaded, list_shaded)
@@ -202,52 +202,52 @@ typedef float element_float;
 /* Plain frames: kernels/frame/plain.h. */
 #define ARGUMENTS_plain(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() \
-	IN(fragment, sparse) AND()          /* per pixel of the band, where it lies in the rectangle */ \
-	VALUE(camera_rectangle, rectangle) AND() /* counted from the band's first row */ \
+	IN(fragment, sparse) AND()          /* one per pixel of the band, at its place in the rectangle */ \
+	VALUE(camera_rectangle, rectangle) AND() /* relative to the band's first row */ \
 	VALUE(uint, width) AND() VALUE(uint, height) AND() /* of the drawable */ \
-	VALUE(uint, first_pixel) AND()      /* the number of the band's first pixel */ \
+	VALUE(uint, first_pixel) AND()      /* number of the band's first pixel */ \
 	VALUE(uint, bits) AND() \
-	IN(frame_pixel, cleared) AND()      /* one: what a pixel is before it is drawn */ \
+	IN(frame_pixel, cleared) AND()      /* one pixel: each pixel's value before drawing */ \
 	VALUE(compose_request, request) AND() /* request.height: rows of the band */ \
-	IN(float, visibility) AND()         /* [slot][n][3]; plain: any buffer */ \
-	VALUE(uint, n_slots) AND()          /* of lights that are asked; 0: none. plain_program before plain: 0 */ \
-	/* per block: which place it has; SCENE_NONE: none, it has no fragments. GPUs: any buffer, its number is its place */ \
+	IN(float, visibility) AND()         /* [slot][n][3]; for plain, any buffer */ \
+	VALUE(uint, n_slots) AND()          /* light slots with rays; 0: none. plain_program before plain: 0 */ \
+	/* each block's place; SCENE_NONE: it has no fragments. GPUs: any buffer, the place is the block's number */ \
 	IN(uint, blocks) AND() \
-	VALUE(uint, n) AND()                /* places of rays a slot: the pixels of blocks that have one */ \
-	/* [n]: of what is shaded one by one or by programs; read as well */ \
+	VALUE(uint, n) AND()                /* places for rays per slot: the pixels of blocks that have a place */ \
+	/* [n]: fragments that are shaded one by one or by programs; also read */ \
 	OUT(fragment, fragments) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() \
 	OUT(ray, rays) AND()                /* [slot][n] */ \
-	OUT(uint, programs) AND()           /* plain_program alone; read as well */ \
-	VALUE(scene_dome, dome) AND()       /* reach 0: there is none. The next four: any buffers then */ \
+	OUT(uint, programs) AND()           /* plain_program alone; also read */ \
+	VALUE(scene_dome, dome) AND()       /* reach 0: there is no dome, and the next four are any buffers */ \
 	IN(float, directions) AND() VALUE(uint, samples) AND() /* as in dome_find. This and the next two: plain_dome alone */ \
-	OUT(dome_place, places) AND()       /* [n]; read as well */ \
+	OUT(dome_place, places) AND()       /* [n]; also read */ \
 	OUT(ray, looks) AND()               /* [sample][n] */ \
-	IN(float, factors) AND()            /* as dome_light leaves them: plain_shadow alone */ \
-	/* layered, layered_shadow and layered_mirror alone, which do without rectangle */ \
+	IN(float, factors) AND()            /* as dome_light leaves them; plain_shadow alone */ \
+	/* layered, layered_shadow and layered_mirror alone, which do not need rectangle */ \
 	GROUP(layers, layers) AND() \
 	OUT(half, halves) AND() OUT(float, floats)
 
-/* A picture from before as a round of looks takes it over. */
+/* How a round of looks takes over an earlier picture. */
 #define ARGUMENTS_layered_start(IN, OUT, VALUE, GROUP, AND) \
 	IN(uint, colors) AND() IN(uint, depths) AND() /* as layered_picture leaves them */ \
 	VALUE(uint, width) AND() VALUE(uint, height) AND() VALUE(uint, bits) AND() /* of the band */ \
-	OUT(float, kept)                    /* as layers.before */
+	OUT(float, kept)                    /* same layout as layers.before */
 
-/* What the last round has left, as GL's frame buffer has it. */
+/* The result of the last round, in the format of GL's frame buffer. */
 #define ARGUMENTS_layered_picture(IN, OUT, VALUE, GROUP, AND) \
 	/* as in layered_start */ \
 	IN(float, kept) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() VALUE(uint, bits) AND() \
-	/* per pixel: red from the lowest byte on; in the buffer's steps, of which 24 bits count */ \
+	/* per pixel: colour, red in the lowest byte; depth in the buffer's steps, 24 bits of which count */ \
 	OUT(uint, colors) AND() OUT(uint, depths) AND() \
-	OUT(uint, unknown)                  /* [PLAIN_WIDTH pixels of a row]: a bit for each whose colour is not known */
+	OUT(uint, unknown)                  /* [PLAIN_WIDTH pixels of a row]: a bit for each pixel of unknown colour */
 
-/* Plain frames without rays: the camera's and their planes. */
+/* Plain frames without rays: camera pass and planes in one kernel. */
 #define ARGUMENTS_plain_whole(IN, OUT, VALUE, GROUP, AND) \
-	/* fragments and counts: the twin alone leaves them; as of a band of request.height rows */ \
+	/* fragments and counts: written by the twin alone; as for a band of request.height rows */ \
 	ARGUMENTS_camera_packet(IN, OUT, VALUE, GROUP, AND) AND() \
 	GROUP(tables, tables) AND() VALUE(uint, bits) AND() \
 	IN(frame_pixel, cleared) AND() VALUE(compose_request, request) AND() /* as in plain */ \
-	/* [pixels of the band]: of what is shaded one by one; read as well */ \
+	/* [pixels of the band]: fragments that are shaded one by one; also read */ \
 	OUT(fragment, alone) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() \
 	OUT(half, halves) AND() OUT(float, floats)
 
@@ -257,14 +257,14 @@ typedef float element_float;
 	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(uint, sample) AND() \
 	VALUE(uint, frame) AND() \
 	VALUE(uint, n) AND()                /* fragments */ \
-	VALUE(uint, n_rays) AND()           /* n for each slot of a light */ \
+	VALUE(uint, n_rays) AND()           /* n for each light slot */ \
 	OUT(ray, rays)
 #define ARGUMENTS_hit_ray(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() IN(uint, pixels) AND() \
-	OUT(uint, wanted) AND()             /* per hit: a bit for each slot of a light; hit_ray: from want_lights */ \
+	OUT(uint, wanted) AND()             /* per hit: a bit for each light slot; hit_ray: set by want_lights */ \
 	VALUE(uint, transport) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() \
 	VALUE(uint, n) AND()                /* hits */ \
-	VALUE(uint, n_rays) AND()           /* n for each slot of a light */ \
+	VALUE(uint, n_rays) AND()           /* n for each light slot */ \
 	OUT(ray, out)
 #define ARGUMENTS_ao_ray(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
@@ -272,56 +272,56 @@ typedef float element_float;
 	VALUE(float, reach) AND() VALUE(uint, n) AND() OUT(ray, rays)
 #define ARGUMENTS_shadow_sum(IN, OUT, VALUE, GROUP, AND) \
 	IN(ray, rays) AND() VALUE(float, weight) AND() \
-	VALUE(uint, first) AND()            /* 1: visibility holds nothing yet */ \
-	VALUE(uint, through) AND()          /* 1: something lets light pass */ \
+	VALUE(uint, first) AND()            /* 1: visibility is not initialised yet */ \
+	VALUE(uint, through) AND()          /* 1: some surface lets light through */ \
 	VALUE(uint, n) AND() \
-	OUT(uint, occluded) AND()           /* read as well: what is left goes on */ \
-	OUT(float, visibility)              /* [3] a ray; read as well */
+	OUT(uint, occluded) AND()           /* also read; rays with light left continue */ \
+	OUT(float, visibility)              /* [3] per ray; also read */
 #define ARGUMENTS_shadow_start(IN, OUT, VALUE, GROUP, AND) \
 	IN(uint, occluded) AND() \
-	IN(uint, places) AND()              /* per ray: where it goes on, if it was stopped */ \
+	IN(uint, places) AND()              /* per ray: its place in the list if it was stopped and continues */ \
 	IN(ray, rays) AND() VALUE(float, weight) AND() VALUE(uint, n) AND() OUT(ray, shadow_rays) AND() \
 	OUT(path, shadow_paths)
 #define ARGUMENTS_shadow_walk(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() \
 	VALUE(uint, to_lights) AND()        /* 1: rays to lights; 0: into the surroundings */ \
 	VALUE(uint, n) AND() \
-	OUT(float, visibility) AND()        /* read as well */ \
+	OUT(float, visibility) AND()        /* also read */ \
 	OUT(ray, next_rays) AND() OUT(path, next_paths) AND() \
-	OUT(uint, counts)                   /* per path: 1 where it goes on */
+	OUT(uint, counts)                   /* per path: 1 if it continues */
 #define ARGUMENTS_ao_shade(IN, OUT, VALUE, GROUP, AND) \
 	IN(float, visibility) AND() VALUE(uint, over_gl) AND() VALUE(uint, n) AND() \
-	OUT(shaded, shaded)                 /* read as well */
+	OUT(shaded, shaded)                 /* also read */
 
 /* Light from all around: kernels/frame/dome.h. */
 #define ARGUMENTS_dome_find(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
 	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(scene_dome, dome) AND() \
-	IN(float, directions) AND()         /* [sample][pixel of a block][4]: about z, then how far to look */ \
+	IN(float, directions) AND()         /* [sample][pixel of a block][4]: direction about z, then how far to look */ \
 	VALUE(uint, samples) AND() VALUE(uint, n) AND() \
 	OUT(dome_place, places) AND() \
 	OUT(ray, rays)                      /* [sample][n] */
 #define ARGUMENTS_dome_sum(IN, OUT, VALUE, GROUP, AND) \
 	IN(dome_place, places) AND() IN(ray, rays) AND() IN(float, visibility) AND() VALUE(scene_dome, dome) AND() \
 	VALUE(uint, samples) AND() \
-	VALUE(uint, is_first) AND()         /* 1: there are no sums yet */ \
+	VALUE(uint, is_first) AND()         /* 1: nothing has been summed yet */ \
 	VALUE(uint, n) AND() \
-	OUT(float, sums)                    /* [4] a fragment: light r g b, and how many rays; read as well */
+	OUT(float, sums)                    /* [4] per fragment: light r g b, number of rays; also read */
 #define ARGUMENTS_dome_light(IN, OUT, VALUE, GROUP, AND) \
 	IN(dome_place, places) AND() IN(float, sums) AND() IN(uint, pixels) AND() \
-	IN(uint, first) AND() IN(uint, counts) AND() /* per pixel of the band: its fragments in the list */ \
-	VALUE(camera_rectangle, rectangle) AND() /* in which these hold, counted from the band's first row */ \
+	IN(uint, first) AND() IN(uint, counts) AND() /* per pixel of the band: its first fragment in the list; how many */ \
+	VALUE(camera_rectangle, rectangle) AND() /* where first and counts hold; relative to the band's first row */ \
 	VALUE(uint, width) AND() \
-	VALUE(uint, first_pixel) AND()      /* the number of the band's first pixel */ \
+	VALUE(uint, first_pixel) AND()      /* number of the band's first pixel */ \
 	VALUE(scene_dome, dome) AND() \
-	/* 1: fragments are a plain frame's; pixels, first, counts and shaded are any buffers; 0: blocks and factors are */ \
+	/* 1: a plain frame's fragments; pixels, first, counts and shaded are any buffers; 0: blocks and factors are */ \
 	VALUE(uint, in_blocks) AND() \
 	IN(uint, blocks) AND()              /* as in plain */ \
 	VALUE(uint, n) AND() \
-	OUT(shaded, shaded) AND()           /* read as well */ \
-	OUT(float, factors)                 /* [3][n] of their colours, 1 where no such light falls */
+	OUT(shaded, shaded) AND()           /* also read */ \
+	OUT(float, factors)                 /* [3][n]: factors of colours, 1 where the dome's light does not apply */
 
-/* Surfaces that shine: kernels/frame/emitter.h. */
+/* Emissive surfaces: kernels/frame/emitter.h. */
 #define ARGUMENTS_emission(IN, OUT, VALUE, GROUP, AND) \
 	IN(emitter, emitters) AND() VALUE(uint, emitter_first) AND() \
 	VALUE(uint, n_emitters) AND()       /* 0: emitters is any buffer */ \
@@ -334,8 +334,8 @@ typedef float element_float;
 #define ARGUMENTS_bounce_ray(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() IN(uint, pixels) AND() \
 	GROUP(emission, emission) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() \
-	VALUE(uint, depth) AND()            /* bounces at most */ \
-	VALUE(uint, first) AND()            /* where their rays begin in out */ \
+	VALUE(uint, depth) AND()            /* maximum number of bounces */ \
+	VALUE(uint, first) AND()            /* index of their first ray in out */ \
 	VALUE(uint, n) AND() OUT(ray, out)
 
 /* Paths: kernels/frame/path.h. */
@@ -344,12 +344,12 @@ typedef float element_float;
 	IN(uint, pixels) AND() VALUE(uint, width) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() \
 	VALUE(uint, frame) AND() GROUP(emission, emission) AND() IN(float, visibility) AND() \
 	VALUE(uint, n) AND() \
-	OUT(shaded, shaded) AND()           /* read as well */ \
-	OUT(ray, next_rays) AND()           /* PATHS_PER_FRAGMENT each */ \
+	OUT(shaded, shaded) AND()           /* also read */ \
+	OUT(ray, next_rays) AND()           /* PATHS_PER_FRAGMENT per fragment */ \
 	OUT(path, next_paths) AND() \
-	OUT(uint, counts)                   /* per fragment: how many of them there are */
+	OUT(uint, counts)                   /* rays per fragment */
 #define ARGUMENTS_gather_paths(IN, OUT, VALUE, GROUP, AND) \
-	IN(ray, next_rays) AND()            /* `slots` an item */ \
+	IN(ray, next_rays) AND()            /* `slots` per item */ \
 	IN(path, next_paths) AND() IN(uint, counts) AND() IN(uint, places) AND() VALUE(uint, slots) AND() \
 	VALUE(uint, n) AND() OUT(ray, rays) AND() OUT(path, paths)
 #define ARGUMENTS_sky_ray(IN, OUT, VALUE, GROUP, AND) \
@@ -363,36 +363,36 @@ typedef float element_float;
 	IN(ray, rays) AND() IN(path, paths) AND() IN(uint, pixels) AND() IN(float, visibility) AND() \
 	VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() VALUE(uint, frame) AND() \
 	GROUP(emission, emission) AND() \
-	VALUE(uint, depth) AND()            /* bounces at most */ \
-	VALUE(float, most) AND()            /* light that a path may bring (hit_bound); 0: no bound */ \
+	VALUE(uint, depth) AND()            /* maximum number of bounces */ \
+	VALUE(float, most) AND()            /* upper bound of the light of a path (hit_bound); 0: no bound */ \
 	IN(float, background) AND()         /* [4] */ \
-	IN(shaded, shaded) AND()            /* of the fragments that paths start from */ \
+	IN(shaded, shaded) AND()            /* those of the fragments that paths start from */ \
 	VALUE(uint, n) AND() \
-	OUT(float, radiance) AND()          /* [3] a path */ \
-	OUT(ray, next_rays) AND()           /* PATHS_PER_HIT each */ \
+	OUT(float, radiance) AND()          /* [3] per path */ \
+	OUT(ray, next_rays) AND()           /* PATHS_PER_HIT per path */ \
 	OUT(path, next_paths) AND() OUT(uint, counts)
 #define ARGUMENTS_credit(IN, OUT, VALUE, GROUP, AND) \
 	IN(path, paths) AND() IN(float, radiance) AND() VALUE(uint, transport) AND() VALUE(uint, n) AND() \
-	OUT(shaded, shaded)                 /* read as well */
+	OUT(shaded, shaded)                 /* also read */
 #define ARGUMENTS_photon(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() \
-	VALUE(uint, depth) AND()            /* mirrors and bends at most */ \
+	VALUE(uint, depth) AND()            /* maximum number of mirror and glass bounces */ \
 	VALUE(uint, pass) AND() VALUE(uint, n) AND() \
 	OUT(photon, photons) AND() \
-	OUT(ray, next_rays) AND()           /* PATHS_PER_HIT each */ \
+	OUT(ray, next_rays) AND()           /* PATHS_PER_HIT per path */ \
 	OUT(path, next_paths) AND() OUT(uint, counts)
 
 /* Hooks: kernels/frame/hook.h. */
-#define ARGUMENTS_hook_trees(IN, OUT, VALUE, GROUP, AND) /* binary ones, of an eye space */ \
-	VALUE(uint, top_first) AND()        /* accel_space.top2_first; SCENE_NONE: nothing is in it */ \
+#define ARGUMENTS_hook_trees(IN, OUT, VALUE, GROUP, AND) /* binary trees of an eye space */ \
+	VALUE(uint, top_first) AND()        /* accel_space.top2_first; SCENE_NONE: the space is empty */ \
 	IN(node2, top) AND() IN(uint, instance_list) AND() IN(instance, instances) AND() IN(node2, nodes)
 #define ARGUMENTS_hook_ray(IN, OUT, VALUE, GROUP, AND) \
 	IN(view, views) AND() VALUE(uint, view_index) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() \
-	VALUE(camera_rectangle, rectangle) AND() /* counted from the band's first row */ \
-	VALUE(uint, first_pixel) AND()      /* the number of the band's first pixel */ \
-	VALUE(uint, turn) AND()             /* which pixels the pass has (sample_takes_part) */ \
+	VALUE(camera_rectangle, rectangle) AND() /* relative to the band's first row */ \
+	VALUE(uint, first_pixel) AND()      /* number of the band's first pixel */ \
+	VALUE(uint, turn) AND()             /* selects the pass's pixels (sample_takes_part) */ \
 	VALUE(uint, sample) AND() VALUE(uint, frame_number) AND() \
-	IN(float, parameters) AND() VALUE(uint, row) AND() /* where the frame's own parameters start */ \
+	IN(float, parameters) AND() VALUE(uint, row) AND() /* row: start of the frame's own parameters */ \
 	VALUE(uint, n) AND() \
 	OUT(uint, pixels) AND() OUT(shaded, shaded) AND() OUT(ray, next_rays) AND() OUT(path, next_paths) AND() \
 	OUT(uint, counts)
@@ -400,17 +400,17 @@ typedef float element_float;
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(path, paths) AND() IN(uint, pixels) AND() \
 	VALUE(uint, first_pixel) AND() \
 	VALUE(uint, n) AND() \
-	OUT(frame_pixel, frame)             /* read as well */
+	OUT(frame_pixel, frame)             /* also read */
 #define ARGUMENTS_hook_store(IN, OUT, VALUE, GROUP, AND) \
 	IN(shaded, shaded) AND() IN(uint, pixels) AND() VALUE(uint, first_pixel) AND() VALUE(uint, n) AND() \
-	OUT(frame_pixel, frame)             /* read as well */
+	OUT(frame_pixel, frame)             /* also read */
 #define ARGUMENTS_hook_shade(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
 	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(float, visibility) AND() VALUE(uint, n_slots) AND() \
 	VALUE(uint, transport) AND() \
-	IN(float, parameters) AND() VALUE(uint, words) AND() /* a row for each material */ \
+	IN(float, parameters) AND() VALUE(uint, words) AND() /* one row per material */ \
 	GROUP(hook_trees, trees) AND() VALUE(uint, n) AND() \
-	OUT(shaded, shaded) AND()           /* read as well */ \
+	OUT(shaded, shaded) AND()           /* also read */ \
 	OUT(hook_answer, answers)
 #define ARGUMENTS_hook_ways(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
@@ -422,7 +422,7 @@ typedef float element_float;
 	VALUE(uint, n_slots) AND() VALUE(uint, transport) AND() VALUE(uint, depth) AND() \
 	IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, row) AND() GROUP(hook_trees, trees) AND() \
 	VALUE(uint, n) AND() \
-	OUT(float, radiance) AND()          /* [3] a path; read as well */ \
+	OUT(float, radiance) AND()          /* [3] per path; also read */ \
 	OUT(ray, next_rays) AND() OUT(path, next_paths) AND() OUT(uint, counts)
 #define ARGUMENTS_hook_walk(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() \
@@ -431,34 +431,34 @@ typedef float element_float;
 	OUT(ray, next_rays) AND() OUT(path, next_paths) AND() OUT(uint, counts)
 #define ARGUMENTS_hook_light(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
-	IN(ray, rays) AND()                 /* those that went to the lights */ \
+	IN(ray, rays) AND()                 /* the rays that were sent to lights */ \
 	VALUE(uint, transport) AND() IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, n) AND() \
-	VALUE(uint, n_rays) AND()           /* n for each slot of a light */ \
-	OUT(float, visibility)              /* read as well */
+	VALUE(uint, n_rays) AND()           /* n for each light slot */ \
+	OUT(float, visibility)              /* also read */
 #define ARGUMENTS_hook_light_hit(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, path_rays) AND() IN(ray, rays) AND() \
 	VALUE(uint, transport) AND() IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, n) AND() \
 	VALUE(uint, n_rays) AND() \
-	OUT(float, visibility)              /* read as well */
+	OUT(float, visibility)              /* also read */
 #define ARGUMENTS_hook_bounds(IN, OUT, VALUE, GROUP, AND) \
 	IN(float, parameters) AND() VALUE(uint, words) AND() VALUE(uint, n) AND() \
-	OUT(hook_object, objects)           /* read as well */
+	OUT(hook_object, objects)           /* also read */
 #define ARGUMENTS_hook_intersect(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(hook_object, objects) AND() VALUE(uint, n_objects) AND() \
 	IN(ray, rays) AND() \
 	IN(float, parameters) AND() VALUE(uint, words) AND() \
-	VALUE(uint, alone) AND()            /* 1: there are no triangles, and no hits yet */ \
-	VALUE(uint, first_slot) AND()       /* where the triangles begin that stand for what these rays hit */ \
+	VALUE(uint, alone) AND()            /* 1: there are no triangles, so no hits yet */ \
+	VALUE(uint, first_slot) AND()       /* first of the triangles that represent these rays' hits */ \
 	VALUE(uint, n) AND() \
-	OUT(hit, hits) AND()                /* read as well */ \
-	OUT(shaded_vertex, made) AND()      /* tables.vertices; read as well */ \
+	OUT(hit, hits) AND()                /* also read */ \
+	OUT(shaded_vertex, made) AND()      /* tables.vertices; also read */ \
 	OUT(float, made_coords) AND()       /* tables.texcoords */ \
 	OUT(window_vertex, windows)
 #define ARGUMENTS_hook_occlude(IN, OUT, VALUE, GROUP, AND) \
 	IN(hook_object, objects) AND() VALUE(uint, n_objects) AND() IN(ray, rays) AND() IN(float, parameters) AND() \
 	VALUE(uint, words) AND() \
 	VALUE(uint, alone) AND() VALUE(uint, n) AND() \
-	OUT(uint, occluded)                 /* read as well */
+	OUT(uint, occluded)                 /* also read */
 
 /* Prefix sums: kernels/frame/scan.h. */
 #define ARGUMENTS_scan_sum(IN, OUT, VALUE, GROUP, AND) \
@@ -466,7 +466,7 @@ typedef float element_float;
 #define ARGUMENTS_scan_place(IN, OUT, VALUE, GROUP, AND) \
 	IN(uint, counts) AND() VALUE(uint, n) AND() IN(uint, before) AND() OUT(uint, places)
 
-/* X(list): lists that are part of others, and those of kernels. */
+/* X(list): lists that other lists include, and lists of kernels. */
 #define KERNEL_GROUPS(X) X(tables) X(layers) X(camera_pass) X(emission) X(hook_trees)
 #define KERNEL_LISTS(X) \
 	X(camera_packet) X(camera_wide) X(camera_compressed) X(occlude_wide) X(occlude_binary) X(occlude_compressed) \
@@ -480,7 +480,7 @@ typedef float element_float;
 	X(compose) \
 	HOOK_LISTS(X)
 
-/* Kernels for hooks. Each has a kernel of its name; KERNEL_ITEMS is its body. */
+/* Kernels for hooks. Each list has a kernel of the same name, whose body is KERNEL_ITEMS. */
 #define HOOK_LISTS(X) \
 	X(hook_ray) X(hook_see) X(hook_store) X(hook_shade) X(hook_ways) X(hook_hit) X(hook_walk) X(hook_light) \
 	X(hook_light_hit) X(hook_bounds) X(hook_intersect) X(hook_occlude)
@@ -495,7 +495,7 @@ typedef float element_float;
 #define KERNEL_FIELDS(list) \
 	ARGUMENTS_##list(KERNEL_FIELD_IN, KERNEL_FIELD_OUT, KERNEL_FIELD_VALUE, KERNEL_FIELD_GROUP, KERNEL_NOTHING)
 
-/* A group is a struct of its own name. */
+/* A group is a struct with the list's name. */
 #define KERNEL_GROUP_STRUCT(list) struct list { KERNEL_FIELDS(list) };
 #define KERNEL_LIST_STRUCT(list) struct list##_arguments { KERNEL_FIELDS(list) };
 KERNEL_GROUPS(KERNEL_GROUP_STRUCT)
@@ -521,7 +521,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	{ ARGUMENTS_##list(KERNEL_NAME, KERNEL_NAME, KERNEL_NAME, KERNEL_NAME_GROUP, KERNEL_COMMA) }
 #define KERNEL_STRUCT(list) { ARGUMENTS_##list(KERNEL_NAME, KERNEL_NAME, KERNEL_NAME, KERNEL_NAME_GROUP, KERNEL_COMMA) }
 
-/* The body of a kernel that does NAME_item(&arguments, item) for each of `count` work items. */
+/* Body of a kernel that calls NAME_item(&arguments, item) for each of `count` work items. */
 #define KERNEL_ITEMS(name, count) \
 	{ \
 		const struct name##_arguments a = KERNEL_STRUCT(name); \
@@ -535,111 +535,111 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 /* --- Kernels ----------------------------------------------------------------------------------------------------- */
 
 /*
- * X(name, list): kernel NAME in a .cl file, twin NAME_c in kernels/ref/. Work items beyond the number that the list
- * gives do nothing: OpenCL rounds the global size up to work groups.
+ * X(name, list): kernel NAME in a .cl file, twin NAME_c in kernels/ref/. OpenCL rounds the global size up to whole work
+ * groups; work items beyond the list's count do nothing.
  */
 #define KERNELS(X) \
-	/* camera rays, a tile of 32 x 32 pixels a work item, eight-wide trees; nearest fragment or a column of them */ \
+	/* camera rays, one 32 x 32 tile per work item, eight-wide trees; nearest fragment or a column of fragments */ \
 	X(camera_packet, camera_packet) \
-	X(camera_wide, camera_wide)     /* the same, one pixel a work item (GPUs) */ \
+	X(camera_wide, camera_wide)     /* the same, one pixel per work item (GPUs) */ \
 	X(camera_compressed, camera_compressed) /* the same, compressed nodes */ \
-	/* shadow and other short rays, a packet of consecutive ones a work item, 8-wide nodes */ \
+	/* shadow and other short rays, one packet of consecutive rays per work item, 8-wide nodes */ \
 	X(occlude_packet, occlude_wide) \
-	X(occlude_wide, occlude_wide)   /* the same, one ray a work item */ \
-	X(intersect_packet, intersect_wide) /* nearest hit, a packet a work item */ \
-	X(intersect_wide, intersect_wide) /* the same, one ray a work item */ \
-	X(occlude_binary, occlude_binary) /* one ray a work item, in numbers alone (GPUs): BVH2 */ \
+	X(occlude_wide, occlude_wide)   /* the same, one ray per work item */ \
+	X(intersect_packet, intersect_wide) /* nearest hit, one packet per work item */ \
+	X(intersect_wide, intersect_wide) /* the same, one ray per work item */ \
+	X(occlude_binary, occlude_binary) /* one ray per work item, scalar (GPUs): BVH2 */ \
 	X(intersect_binary, intersect_binary) \
 	X(occlude_compressed, occlude_compressed) /* the same, compressed nodes */ \
 	X(intersect_compressed, intersect_compressed) \
-	X(query_all, query_all)         /* one ray a work item: all that it hits */ \
-	X(query_distance, query_distance) /* one point a work item: what is nearest */ \
-	X(query_box, query_box)         /* one moving box a work item: what it meets first */ \
+	X(query_all, query_all)         /* one ray per work item: all its hits */ \
+	X(query_distance, query_distance) /* one point per work item: the nearest surface */ \
+	X(query_box, query_box)         /* one moving box per work item: its first contact */ \
 	X(query_sphere, query_sphere)   /* the same, a sphere */ \
-	X(vertex, vertex)               /* GL's vertex stage: one vertex of one instance a work item */ \
-	X(vertex_packet, vertex)        /* the same, VERTEX_PACKET consecutive vertices a work item (CPUs) */ \
-	/* after either, where vertex programs are: four vertices of an instance a work item */ \
+	X(vertex, vertex)               /* GL's vertex stage: one vertex of one instance per work item */ \
+	X(vertex_packet, vertex)        /* the same, VERTEX_PACKET consecutive vertices per work item (CPUs) */ \
+	/* after either, for vertex programs: four vertices of an instance per work item */ \
 	X(vertex_program, vertex_program) \
-	X(window, window)               /* one vertex a work item: its place in a window that has moved */ \
-	X(gather, gather)               /* one pixel a work item: its fragments into one dense list */ \
-	X(shade, shade)                 /* one fragment a work item: GL's colour of it, and the shadow rays it wants */ \
-	X(shade_packet, shade)          /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \
-	/* after either, where fragment programs are: one fragment a work item, coloured by its program */ \
+	X(window, window)               /* one vertex per work item: its place in a window that has moved */ \
+	X(gather, gather)               /* one pixel per work item: compacts its fragments into a dense list */ \
+	X(shade, shade)                 /* one fragment per work item: its GL colour, and the shadow rays it needs */ \
+	X(shade_packet, shade)          /* the same, SHADE_PACKET consecutive fragments per work item (CPUs) */ \
+	/* after either, for fragment programs: one fragment per work item, coloured by its program */ \
 	X(program, shade) \
-	X(program_packet, shade)        /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \
-	X(shadow_ray, shadow_ray)       /* one fragment a work item: its ray to one light */ \
-	X(shadow_ray_packet, shadow_ray) /* the same, SHADE_PACKET consecutive ones a work item (CPUs) */ \
-	X(hit_ray, hit_ray)             /* one hit of a path a work item: its ray to one light */ \
-	/* want_lights, and rays to all lights, SHADE_PACKET consecutive hits a work item (CPUs) */ \
+	X(program_packet, shade)        /* the same, SHADE_PACKET consecutive fragments per work item (CPUs) */ \
+	X(shadow_ray, shadow_ray)       /* one fragment per work item: its ray to one light */ \
+	X(shadow_ray_packet, shadow_ray) /* the same, SHADE_PACKET consecutive fragments per work item (CPUs) */ \
+	X(hit_ray, hit_ray)             /* one path hit per work item: its ray to one light */ \
+	/* want_lights, and rays to all lights, SHADE_PACKET consecutive hits per work item (CPUs) */ \
 	X(hit_ray_packet, hit_ray) \
-	X(ao_ray, ao_ray)               /* one fragment a work item: a look around */ \
-	X(shadow_sum, shadow_sum)       /* one ray to a light a work item: full visibility where nothing stopped it */ \
+	X(ao_ray, ao_ray)               /* one fragment per work item: an ambient occlusion ray */ \
+	X(shadow_sum, shadow_sum)       /* one light ray per work item: full visibility if nothing stopped it */ \
 	X(shadow_start, shadow_start)   /* one stopped ray a work item: into a list, to go on through what lets light pass */ \
-	X(shadow_walk, shadow_walk)     /* one of these a work item: past what it hit */ \
-	X(scan_sum, scan_sum)           /* a chunk of counts a work item: their sum */ \
-	X(scan_place, scan_place)       /* the same: where each count's results go */ \
-	X(gather_paths, gather_paths)   /* one path a work item: its next rays into one dense list */ \
-	X(leave, leave)                 /* one fragment a work item: its mirrored, bent and scattered rays */ \
-	X(leave_packet, leave)          /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \
-	X(sky_ray, sky_ray)             /* one path a work item: its look at the sky where it hit nothing */ \
-	X(want_lights, want_lights)     /* one path a work item: lights to be asked for at its hit */ \
-	X(shade_hit, shade_hit)         /* one path a work item: the radiance it found and its next rays */ \
-	X(shade_hit_packet, shade_hit)  /* the same, SHADE_PACKET consecutive paths a work item (CPUs) */ \
-	X(leave_ray, leave_ray)         /* one fragment a work item: its ray to a surface that shines */ \
-	X(bounce_ray, bounce_ray)       /* one hit of a path a work item: the same */ \
-	X(credit, credit)               /* one path a work item: that radiance into its fragment */ \
-	X(photon, photon)               /* one photon a work item: where it came to, and its way on */ \
-	X(ao_shade, ao_shade)           /* one fragment a work item: its openness as its colour */ \
-	/* one fragment a work item: where it takes light from all around, and its looks around */ \
+	X(shadow_walk, shadow_walk)     /* one listed ray per work item: continues it beyond its hit */ \
+	X(scan_sum, scan_sum)           /* one chunk of counts per work item: their sum */ \
+	X(scan_place, scan_place)       /* the same: the place of each count's results */ \
+	X(gather_paths, gather_paths)   /* one path per work item: compacts its next rays into a dense list */ \
+	X(leave, leave)                 /* one fragment per work item: its mirrored, refracted and scattered rays */ \
+	X(leave_packet, leave)          /* the same, SHADE_PACKET consecutive fragments per work item (CPUs) */ \
+	X(sky_ray, sky_ray)             /* one path per work item: its ray to the sky if it hit nothing */ \
+	X(want_lights, want_lights)     /* one path per work item: the lights needed at its hit */ \
+	X(shade_hit, shade_hit)         /* one path per work item: the radiance it found and its next rays */ \
+	X(shade_hit_packet, shade_hit)  /* the same, SHADE_PACKET consecutive paths per work item (CPUs) */ \
+	X(leave_ray, leave_ray)         /* one fragment per work item: its ray to an emissive surface */ \
+	X(bounce_ray, bounce_ray)       /* one path hit per work item: the same */ \
+	X(credit, credit)               /* one path per work item: adds its radiance to its fragment */ \
+	X(photon, photon)               /* one photon per work item: where it landed, and its next ray */ \
+	X(ao_shade, ao_shade)           /* one fragment per work item: its openness as its colour */ \
+	/* one fragment per work item: where it receives the dome's light, and its dome rays */ \
 	X(dome_find, dome_find) \
-	X(dome_find_packet, dome_find)  /* the same, SHADE_PACKET consecutive fragments a work item (CPUs) */ \
-	X(dome_sum, dome_sum)           /* one fragment a work item: the light that came by its looks */ \
-	X(dome_light, dome_light)       /* the same: its and its neighbours' light on its colours */ \
-	X(dome_light_packet, dome_light) /* the same, a tile of DOME_WIDTH x CAMERA_TILE pixels a work item (CPUs) */ \
-	X(clear, clear)                 /* one pixel a work item: a Clear */ \
-	X(resolve, resolve)             /* one pixel a work item: per-fragment operations in draw order */ \
-	/* the same, FRAME_ROW pixels of a row a work item, all colours of a pixel at once (CPUs) */ \
+	X(dome_find_packet, dome_find)  /* the same, SHADE_PACKET consecutive fragments per work item (CPUs) */ \
+	X(dome_sum, dome_sum)           /* one fragment per work item: the light that its dome rays found */ \
+	X(dome_light, dome_light)       /* the same: applies its own and its neighbours' light to its colours */ \
+	X(dome_light_packet, dome_light) /* the same, a tile of DOME_WIDTH x CAMERA_TILE pixels per work item (CPUs) */ \
+	X(clear, clear)                 /* one pixel per work item: a Clear */ \
+	X(resolve, resolve)             /* one pixel per work item: per-fragment operations in draw order */ \
+	/* the same, FRAME_ROW pixels of a row per work item, all colours of a pixel at once (CPUs) */ \
 	X(resolve_packet, resolve) \
-	X(merge_samples, merge_samples) /* one pixel a work item: its samples into one */ \
-	X(add_pass, add_pass)           /* one pixel a work item: a pass of several to their sum */ \
-	X(plain_program, plain)         /* before either of the next two, where programs are: colours by them */ \
-	/* a block of a plain frame's pixels a work item: all planes but for shadows, and rays to lights (CPUs) */ \
+	X(merge_samples, merge_samples) /* one pixel per work item: merges its samples */ \
+	X(add_pass, add_pass)           /* one pixel per work item: adds a pass to the sum of passes */ \
+	X(plain_program, plain)         /* before either of the next two, if there are programs: their colours */ \
+	/* a block of a plain frame per work item: all planes except shadows, and rays to lights (CPUs) */ \
 	X(plain, plain) \
-	/* in place of camera_packet and plain where no rays are sent: a tile of CAMERA_TILE x CAMERA_TILE pixels a work item \
-	   (CPUs) */ \
+	/* replaces camera_packet and plain if no rays are sent: one                                                          \
+	 * tile of CAMERA_TILE x CAMERA_TILE pixels per work item (CPUs) */                                                   \
 	X(plain_whole, plain_whole) \
-	/* in place of plain where light comes from all around: a block's rays, to lights and into the surroundings */ \
+	/* replaces plain if there is a dome: a block's rays, to lights and to the dome */ \
 	X(plain_dome, plain) \
-	X(plain_shadow, plain)          /* the same: planes of pixels that lie in shadow */ \
-	/* the first of plain's steps where each block has the place of its number, one pixel a work item (GPUs): its colour \
-	   */ \
+	X(plain_shadow, plain)          /* the same: planes of pixels that are in shadow */ \
+	/* plain's first step where a block's place is its                                                                   \
+	 * number, one pixel per work item (GPUs): its colour */                                                             \
 	X(plain_color, plain) \
-	X(plain_ask, plain)             /* the second, one ray a work item, n a slot */ \
-	X(plain_show, plain)            /* the third, one pixel a work item: its planes */ \
+	X(plain_ask, plain)             /* its second step, one ray per work item, n per slot */ \
+	X(plain_show, plain)            /* its third step, one pixel per work item: its planes */ \
 	X(plain_color_dimmed, plain)    /* plain_shadow's two steps, the same */ \
 	X(plain_show_dimmed, plain) \
-	/* before the next, where frames begin with a picture: PLAIN_WIDTH pixels of a row a work item */ \
+	/* before the next, if frames begin with a picture: PLAIN_WIDTH pixels of a row per work item */ \
 	X(layered_start, layered_start) \
-	X(layered, plain)               /* as plain, of several looks */ \
-	X(layered_shadow, plain)        /* as plain_shadow; and fragments that light leaves, into a list */ \
-	X(layered_mirror, plain)        /* planes of pixels where these are, with what their paths found */ \
-	/* after the last round, where a picture is asked for in place of planes: PLAIN_WIDTH pixels of a row a work item */ \
+	X(layered, plain)               /* as plain, for several looks */ \
+	X(layered_shadow, plain)        /* as plain_shadow; also lists the fragments that light leaves */ \
+	X(layered_mirror, plain)        /* planes of pixels with such fragments, including what their paths found */ \
+	/* after the last round, if a picture is wanted instead of planes: PLAIN_WIDTH pixels of a row per work item */ \
 	X(layered_picture, layered_picture) \
-	X(compose, compose)             /* one pixel a work item: the planes of the finished picture */ \
-	X(compose_packet, compose)      /* the same, FRAME_ROW pixels of COMPOSE_ROWS rows a work item (CPUs) */ \
-	X(hook_ray, hook_ray)           /* one pixel a work item: its first ray by a hook */ \
-	X(hook_see, hook_see)           /* one such ray a work item: what it hit is the pixel's surface */ \
-	X(hook_store, hook_store)       /* one pixel a work item: what its rays found */ \
-	X(hook_shade, hook_shade)       /* one fragment a work item: its colour by a hook */ \
+	X(compose, compose)             /* one pixel per work item: the planes of the finished picture */ \
+	X(compose_packet, compose)      /* the same, FRAME_ROW pixels of COMPOSE_ROWS rows per work item (CPUs) */ \
+	X(hook_ray, hook_ray)           /* one pixel per work item: its first ray, from a hook */ \
+	X(hook_see, hook_see)           /* one such ray per work item: its hit becomes the pixel's surface */ \
+	X(hook_store, hook_store)       /* one pixel per work item: what its rays found */ \
+	X(hook_shade, hook_shade)       /* one fragment per work item: its colour, from a hook */ \
 	X(hook_ways, hook_ways)         /* the same: its rays */ \
-	X(hook_hit, hook_hit)           /* one path a work item: the light it found and its rays by a hook */ \
-	X(hook_walk, hook_walk)         /* one stopped ray to a light a work item: it goes on where a hook says so */ \
-	/* one fragment's ray to a light a work item: how much of the light a hook lets arrive */ \
+	X(hook_hit, hook_hit)           /* one path per work item: the light it found and its rays, from a hook */ \
+	X(hook_walk, hook_walk)         /* one stopped light ray per work item: continues if a hook says so */ \
+	/* one light ray of a fragment per work item: how much of the light a hook lets arrive */ \
 	X(hook_light, hook_light) \
-	X(hook_light_hit, hook_light_hit) /* the same of a hit */ \
-	X(hook_bounds, hook_bounds)     /* one object of a hook a work item: its box */ \
-	X(hook_intersect, hook_intersect) /* one ray a work item: what it meets of these objects */ \
-	X(hook_occlude, hook_occlude)   /* the same, where any hit will do */
+	X(hook_light_hit, hook_light_hit) /* the same for a hit */ \
+	X(hook_bounds, hook_bounds)     /* one hook object per work item: its box */ \
+	X(hook_intersect, hook_intersect) /* one ray per work item: its hit among these objects */ \
+	X(hook_occlude, hook_occlude)   /* the same, for any hit */
 
 enum kernel {
 #define KERNEL_ENUM(name, list) KERNEL_##name,
@@ -647,11 +647,11 @@ enum kernel {
 	N_KERNELS
 };
 
-/* The twins: each does work items first .. last-1. */
+/* The twins: each runs work items first .. last-1. */
 #define KERNEL_DECLARE_TWIN(name, list) void name##_c(const struct list##_arguments *a, size_t first, size_t last);
 KERNELS(KERNEL_DECLARE_TWIN)
 
-/* The twin of a kernel whose body is KERNEL_ITEMS. count: a field */
+/* The twin of a kernel whose body is KERNEL_ITEMS. count: name of a field */
 #define KERNEL_TWIN(name, count) \
 	void name##_c(const struct name##_arguments *a, size_t first, size_t last) \
 	{ \
@@ -660,8 +660,8 @@ KERNELS(KERNEL_DECLARE_TWIN)
 	}
 
 /**
- * A twin with its arguments one by one.
- * @param arguments  in the list's order, groups in place: a buffer's memory, or where a value stands
+ * A twin that takes its arguments one by one.
+ * @param arguments  in the list's order, groups in place: a buffer's memory, or the address of a value
  */
 typedef void kernel_twin(void *const *arguments, size_t first, size_t last);
 

@@ -1,8 +1,8 @@
 /*
- * Sets up sixteen triangles at once for a tile's pixels, one triangle a lane: which of them the tile can see, and their
- * edges and depths for rows of pixels. OpenCL C only.
+ * Sets up sixteen triangles at once for a tile's pixels, one triangle per lane: finds which of them the tile can see,
+ * and their edges and depths for rows of pixels. OpenCL C only.
  *
- * A tile meets few pixels of each triangle: setting up a triangle costs as much as drawing its pixels.
+ * A tile covers few pixels of each triangle, so setting up a triangle costs as much as drawing its pixels.
  */
 #pragma once
 
@@ -12,7 +12,7 @@
 #include "kernels/rays/gather.h"
 #include "kernels/rays/lanes.h"
 
-/* Where the corners of sixteen triangles are in the window. */
+/* Window positions of the corners of sixteen triangles. */
 struct batch_corners {
 	packi x[3], y[3];             /* 1/256 pixel, y from the bottom */
 	packf z[3];
@@ -20,26 +20,26 @@ struct batch_corners {
 };
 
 /*
- * Edge i is the one across from corner i, turned so that triangles run counter-clockwise. Its function at a pixel's
- * place and its steps to the right and up: 64 bits hold the function exactly; of its whole part, which is clamped to
- * where steps inside a tile cannot change its sign, 32 bits do.
+ * Edge i is opposite corner i, oriented so that triangles run counter-clockwise. It is described by its function at a
+ * pixel and the function's steps to the right and up. The function is exact in 64 bits. Its integer part needs only 32,
+ * because it is clamped to a range where steps inside a tile cannot change its sign.
  */
 struct batch {
-	packi whole[3]; /* (the function at the tile's first pixel - (1 where the edge itself is outside)) / 256 */
-	packi step_x[3], step_y[3];   /* 1/256 square pixel a pixel */
-	long16 value[2];              /* of edges 1 and 2 at the tile's first pixel, exact, 1/65536 square pixel */
-	packi small;                  /* lanes whose functions fit into 32 bits wherever they are inside */
-	packi rest[2];                /* of small lanes: the function is 256 whole + rest */
-	packf inverse;                /* 1 / twice the area, in their unit */
-	packi x_first, x_last, y_first, y_last; /* pixels of the tile that the triangle's box holds */
-	packf z, along_b1, along_b2;  /* depth from weights */
-	packi exact;                  /* lanes whose depth is the plane's below; others are slivers */
+	packi whole[3]; /* (the function at the tile's first pixel - (1 if the edge itself is outside)) / 256 */
+	packi step_x[3], step_y[3];   /* in 1/256 square pixel per pixel */
+	long16 value[2];              /* edges 1 and 2 at the tile's first pixel, exact, in 1/65536 square pixel */
+	packi small;                  /* lanes whose functions fit 32 bits everywhere inside the triangle */
+	packi rest[2];                /* for small lanes: the function is 256 whole + rest */
+	packf inverse;                /* 1 / twice the area, in the unit of value */
+	packi x_first, x_last, y_first, y_last; /* the tile's pixels within the triangle's box */
+	packf z, along_b1, along_b2;  /* depth as a function of weights */
+	packi exact;                  /* lanes whose depth comes from the plane below; the others are slivers */
 	packf origin, along_x, along_y;
 };
 
 /*
- * The corners that have a place in the window, from the vertices' tables.
- * @return the lanes where all three have one; the others' corners say nothing
+ * Load the corners from the vertex tables.
+ * @return the lanes whose three corners all have a place in the window; the others are undefined
  */
 WIDE_VECTORS static inline packi batch_load(__global const struct view *view, float height,
                                             __global const struct window_vertex *window, __global const float *clip,
@@ -59,14 +59,14 @@ WIDE_VECTORS static inline packi batch_load(__global const struct view *view, fl
 		out->x[i] = as_int16(in_window[0]);
 		out->y[i] = as_int16(in_window[1]);
 		out->z[i] = in_window[2];
-		/* As clip_place; 1 / w is known. */
+		/* As clip_place, but 1 / w is already known. */
 		out->place_x[i] = fma((packf)(half_x), in_clip[0] * in_window[3], (packf)(middle_x)) - clip_origin(view);
 		out->place_y[i] = fma((packf)(half_y), in_clip[1] * in_window[3], (packf)(middle_y)) - clip_origin(view);
 	}
 	return placed;
 }
 
-/* In lanes what clip_depth_plane does. */
+/* clip_depth_plane for all lanes. */
 WIDE_VECTORS static inline void batch_depth(const struct batch_corners *v, struct batch *out)
 {
 	const packf *px = v->place_x, *py = v->place_y, *z = v->z;
@@ -87,7 +87,7 @@ WIDE_VECTORS static inline void batch_depth(const struct batch_corners *v, struc
 	out->along_b2 = z[2] - z[0];
 }
 
-/* Edge i, from corner a to corner b; sign: all ones where it is to be turned. @return its function at `at`, exact */
+/* Edge i, from corner a to corner b. sign: all ones to reverse it. @return its function at `at`, exact */
 WIDE_VECTORS static inline long16 batch_edge(const struct batch_corners *v, int i, int a, int b, packi turned,
                                              struct clip_spot at, struct batch *out)
 {
@@ -104,16 +104,19 @@ WIDE_VECTORS static inline long16 batch_edge(const struct batch_corners *v, int 
 	return value;
 }
 
-/* Depths behind which nothing counts: of the tile's sixteen cells of 8 x 8 pixels, row by row, and of all of it. */
+/*
+ * Depths beyond which nothing is visible: for each of the tile's sixteen cells of 8 x 8 pixels, row by row, and for the
+ * whole tile.
+ */
 struct batch_far {
 	packf cells;
 	float all;
 };
 
 /*
- * Lanes that are behind wherever in the box they are. A plane's values at the box's corners bound those in it, rounding
- * included.
- * @param x, y  where the view looks in the tile's first pixel, as planes count
+ * Lanes that are hidden everywhere in their box. A plane's values at the box's corners bound its values inside,
+ * rounding included.
+ * @param x, y  where the view looks in the tile's first pixel, in the planes' coordinates
  */
 WIDE_VECTORS static inline packi batch_hidden(const struct batch *s, const struct batch_far *far, float x, float y)
 {
@@ -126,11 +129,11 @@ WIDE_VECTORS static inline packi batch_hidden(const struct batch *s, const struc
 	const packf above = pack_max(pack_pick(far->cells, 4 * y1 + x0), pack_pick(far->cells, 4 * y1 + x1));
 	const packf farthest = select(pack_max(below, above), (packf)(far->all), (x1 - x0 > 1) | (y1 - y0 > 1));
 
-	/* By some steps of depth, so that it is not a matter of order. */
+	/* A few steps of depth behind, so that draw order cannot matter. */
 	return s->exact & (depth > farthest + 3e-7f);
 }
 
-/* Lanes where some pixel of the box is on the inner side of edge i, as far as its corners say. */
+/* Lanes where some pixel of the box may be on the inner side of edge i, judging by the box's corners. */
 WIDE_VECTORS static inline packi batch_reaches(const struct batch *s, int i)
 {
 	return s->whole[i] + max(s->step_x[i] * s->x_first, s->step_x[i] * s->x_last) +
@@ -140,10 +143,10 @@ WIDE_VECTORS static inline packi batch_reaches(const struct batch *s, int i)
 /*
  * @param height  of the drawable
  * @param x, y    the tile's first pixel
- * @param flags   of the instance: which faces are culled
- * @param lanes   those that count, all ones each
- * @param far     of the tile
- * @return one bit for each triangle that the tile may see
+ * @param flags   the instance's: which faces are culled
+ * @param lanes   lanes to set up, all ones each
+ * @param far     farthest depths of the tile
+ * @return a bit for each triangle that may be visible in the tile
  */
 WIDE_VECTORS INLINED uint batch_set_up(__global const struct view *view, uint height, int x, int y, uint flags,
                                        const struct batch_corners *v, packi lanes, const struct batch_far *far,

@@ -1,5 +1,5 @@
 /*
- * camera_packet: a tile of 32 x 32 pixels a work item (kernels/camera/tile_walk.h), and how its fragments are stored.
+ * camera_packet: one 32 x 32 tile per work item (kernels/camera/tile_walk.h). This file stores the tile's fragments.
  * See kernels/camera/camera.h.
  */
 #include "kernels/camera/tile_walk.h"
@@ -25,8 +25,8 @@ static inline void store_pixel(const struct tile *t, int x, int y, __global uint
 	counts[pixel] = f.order != SCENE_NONE;
 }
 
-/* Of each row of a block, four numbers a row: the first two of a and of b by turns, the last two; halves of a and of
- * b. */
+/* From each row of a block, four numbers per row: the first two of a and of b alternating, then the last two; halves of
+ * a and of b. */
 #define STORE_LOW(a, b) \
 	(packu)(a.s0, b.s0, a.s1, b.s1, a.s4, b.s4, a.s5, b.s5, a.s8, b.s8, a.s9, b.s9, a.sc, b.sc, a.sd, b.sd)
 #define STORE_HIGH(a, b) \
@@ -36,7 +36,7 @@ static inline void store_pixel(const struct tile *t, int x, int y, __global uint
 #define STORE_FIRST_LAST(a, b) (packu)(a.s01, b.s23, a.s45, b.s67, a.s89, b.sab, a.scd, b.sef)
 #define STORE_LAST_FIRST(a, b) (packu)(a.s23, b.s01, a.s67, b.s45, a.sab, b.s89, a.sef, b.scd)
 
-/* A block's fragments, six numbers each: of each row, its quarter of all six vectors one after the other. */
+/* A block's fragments, six numbers each: for each row, its quarter of all six vectors, one after the other. */
 WIDE_VECTORS static inline void lay_out(const struct camera_pack *p, packu *out)
 {
 	const packu b1 = as_uint16(p->b1), b2 = as_uint16(p->b2), depth = as_uint16(pack_min(p->depth, (packf)(1)));
@@ -71,7 +71,7 @@ WIDE_VECTORS static inline void store_rows(packu a, packu b, packu c, packu d, _
 		store_pack(row[i], to + i * stride, aligned);
 }
 
-/* Two blocks side by side whose pixels all count: three times sixteen numbers a row. */
+/* Two adjacent blocks whose pixels are all stored: three times sixteen numbers per row. */
 WIDE_VECTORS static inline void store_blocks(const struct tile *t, int x, int y, __global uint *counts)
 {
 	const size_t pixel = place_of(t, BLOCK * x, BLOCK * y);
@@ -97,7 +97,7 @@ WIDE_VECTORS static inline void store_blocks(const struct tile *t, int x, int y,
 	}
 }
 
-/* The pixels that count. */
+/* Store the tile's pixels that lie in the rectangle. */
 static inline void store_tile(const struct tile *t, __global uint *counts)
 {
 	const struct camera_rectangle o = t->open;

@@ -1,5 +1,5 @@
 /*
- * camera_wide, camera_compressed: one pixel a work item, for devices that run many work items in step. See
+ * camera_wide, camera_compressed: one pixel per work item, for devices that run many work items in lockstep. See
  * kernels/camera/camera.h.
  */
 #include "kernels/camera/camera.h"
@@ -7,7 +7,7 @@
 #include "kernels/kernels.h"
 #include "kernels/rays/compressed_node.h"
 
-/* A pixel on its way. */
+/* State of a pixel during traversal. */
 struct pixel {
 	__global const struct view *view;
 	__global const struct instance *instances;
@@ -16,7 +16,7 @@ struct pixel {
 	__global const struct triangle *triangles;
 	__global const struct window_vertex *window;
 	__global const float *clip;
-	__global struct fragment *out; /* the pixel's column, or its nearest */
+	__global struct fragment *out; /* the pixel's column, or its nearest fragment */
 	uint mode, height, after;
 	int x, y;
 	struct vec3 o, d;
@@ -31,7 +31,7 @@ static inline void shorten(struct pixel *p, float depth)
 	const float u = (depth - near) / range + 4e-7f;
 	const float w = (1.0f - u) * p->near_w + u * p->far_w - 1e-6f * p->near_w;
 
-	/* Where the range is turned round the nearest depth is not the first along the ray. */
+	/* With a reversed depth range, the nearest depth is not the first along the ray. */
 	if (range > 0 && w * p->near_w > 0)
 		p->t_max = fmin(p->t_max, u * p->d_scale / (p->near_w * w));
 }
@@ -58,7 +58,7 @@ static inline void keep_in_column(struct pixel *p, const struct fragment *f)
 		return;
 	while (place > 0 && p->out[place - 1].order > f->order)
 		place--;
-	/* A triangle may lie in several leaves. */
+	/* A triangle may be in several leaves. */
 	if (place == CAMERA_COLUMN_MAX || (place > 0 && p->out[place - 1].order == f->order))
 		return;
 	if (p->count < CAMERA_COLUMN_MAX)
@@ -107,7 +107,7 @@ static inline struct vec3 invert_all(struct vec3 d)
 	return v3(invert(d.x), invert(d.y), invert(d.z));
 }
 
-/* Whether the ray meets a box, widened by pad, and where. */
+/* Test the ray against a box widened by pad, and find where it enters. */
 static inline int pixel_meets_box(struct vec3 lo, struct vec3 hi, struct vec3 o, struct vec3 inverse, float pad,
                                   float t_max, float *enter)
 {
@@ -116,7 +116,7 @@ static inline int pixel_meets_box(struct vec3 lo, struct vec3 hi, struct vec3 o,
 	const float z0 = (lo.z - pad - o.z) * inverse.z, z1 = (hi.z + pad - o.z) * inverse.z;
 
 	*enter = fmax(fmax(fmin(x0, x1), fmin(y0, y1)), fmax(fmin(z0, z1), 0.0f));
-	/* A little more, for rounding in t; an empty side has lo > hi. */
+	/* A little slack for rounding in t; an empty side has lo > hi. */
 	return lo.x <= hi.x && *enter <= fmin(fmin(fmax(x0, x1), fmax(y0, y1)), fmin(fmax(z0, z1), t_max)) * 1.00001f;
 }
 
@@ -163,13 +163,13 @@ static inline void pixel_walk_binary(struct pixel *p, uint index, struct vec3 o,
 	}
 }
 
-/* Whether a box, widened by pad, is over or under a place of the window. */
+/* Test whether a box, widened by pad, contains a window position in x and y. */
 static inline int is_below(float2 lo, float2 hi, float2 at, float pad)
 {
 	return all(at >= lo - pad) && all(at <= hi + pad);
 }
 
-/* The pixel's ray as nodes of 80 bytes are met by it: with boxes widened by pad, from its start on. */
+/* The pixel's ray prepared for 80-byte nodes: boxes are widened by pad, and t starts at the ray's origin. */
 static inline struct walk compressed_ray(struct vec3 o, struct vec3 d, float pad)
 {
 	struct walk w;
@@ -183,8 +183,8 @@ static inline struct walk compressed_ray(struct vec3 o, struct vec3 d, float pad
 	return w;
 }
 
-/* Nodes in the order of the ray's octant, about from front to back, as in kernels/rays/rays_single.cl. is_screen: the
- * ray's end is w's */
+/* Visits nodes in the order of the ray's octant, roughly front to back, as in kernels/rays/rays_single.cl. is_screen:
+ * the ray's end is w's */
 static inline void pixel_walk_compressed(struct pixel *p, uint index, struct walk *w, int is_screen)
 {
 	__global const struct instance *instance = &p->instances[index];
@@ -255,7 +255,7 @@ INLINED void walk_top(struct pixel *p, int is_compressed, __global const struct 
 	}
 }
 
-/* Where the view looks in the pixel, pixels. */
+/* Sample position in the pixel, in pixels. */
 static inline float2 pixel_spot(const struct pixel *p)
 {
 	return (float2)((float)p->x, (float)p->y) + 0.5f +
@@ -283,7 +283,7 @@ static inline void walk_screen_binary(struct pixel *p, uint index, float2 at)
 	}
 }
 
-/* Where the view looks in the window is a point, of any depth. */
+/* Test a window position, at any depth, as a point. */
 static inline void walk_screen_compressed(struct pixel *p, uint index, float2 at)
 {
 	struct walk w = compressed_ray(v3(at.x, at.y, 0), v3(0, 0, 1), p->instances[index].pad);
@@ -302,7 +302,7 @@ INLINED void walk_screen(struct pixel *p, uint index, int is_compressed)
 		walk_screen_binary(p, index, pixel_spot(p));
 }
 
-/* 0 where the pixel has no ray: outside of the viewport, or the projection has no inverse. */
+/* 0 if the pixel has no ray: it is outside the viewport, or the projection has no inverse. */
 static inline int make_ray(struct pixel *p)
 {
 	__global const float *m = p->view->inverse, *viewport = p->view->viewport;
@@ -324,8 +324,8 @@ static inline int make_ray(struct pixel *p)
 }
 
 /*
- * p: with its trees, the rest is set here. Each kernel compiles this for its kind of trees alone, and has stacks of
- * that kind.
+ * p: with its trees set; the rest is set here. Each kernel compiles this for one kind of tree, and so only has stacks
+ * of that kind.
  */
 INLINED void do_pixel(int is_compressed, struct pixel *p, const struct camera_pass *pass,
                       __global const struct node2 *top, __global const uint *instance_list)

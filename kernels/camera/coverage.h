@@ -1,6 +1,6 @@
 /*
- * GL's coverage rule for one pixel, as kernels/camera/camera.h says; scalar. OpenCL C only. kernels/ref/camera.c is the
- * twin.
+ * GL's coverage rule for one pixel, as specified in kernels/camera/camera.h; scalar. OpenCL C only.
+ * kernels/ref/camera.c is the twin.
  */
 #pragma once
 
@@ -15,7 +15,7 @@ static inline int coverage_culled(uint flags, int counter_clockwise)
 	return (flags & (front ? INSTANCE_CULL_FRONT : INSTANCE_CULL_BACK)) != 0;
 }
 
-/* Twice the signed area of a -> b -> a place, in 1/65536 square pixel. */
+/* Twice the signed area of the triangle a, b and a place, in 1/65536 square pixel. */
 static inline long coverage_edge(struct window_vertex a, struct window_vertex b, struct clip_spot at)
 {
 	return (long)(b.x - a.x) * (at.y - a.y) - (long)(b.y - a.y) * (at.x - a.x);
@@ -48,7 +48,7 @@ static inline int coverage_placed(struct window_vertex v0, struct window_vertex 
 	return 1;
 }
 
-/* Depth at a pixel as it counts in comparisons: from vertices that are not snapped. corner: as for clip_depth_plane. */
+/* Depth at a pixel as used in comparisons: from vertices that are not snapped. corner: as for clip_depth_plane. */
 static inline float coverage_depth(__global const struct view *view, uint height,
                                    const struct clip_corner *const *corner, const struct vec4 *clip, const float *z,
                                    int x, int y, float otherwise)
@@ -60,7 +60,7 @@ static inline float coverage_depth(__global const struct view *view, uint height
 	return clamp01(clip_plane_in(&plane, view, (float)height, x, y));
 }
 
-/* A vertex lies outside of the view volume: ask the clipped triangle. i0, i1, i2: places in clip. */
+/* A vertex lies outside the view volume: test the clipped triangle. i0, i1, i2: indices in clip. */
 static inline int coverage_clipped(__global const struct view *view, __global const float *clip, uint height, uint i0,
                                    uint i1, uint i2, uint flags, int exact, int x, int y, float *b1, float *b2,
                                    float *depth)

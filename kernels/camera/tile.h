@@ -1,9 +1,9 @@
 /*
- * A tile of 32 x 32 pixels, which a view looks through: its fragments, and how triangles are drawn to them. OpenCL C
- * only. See kernels/camera/camera.h.
+ * A tile of 32 x 32 pixels of a view: its fragments, and how triangles are drawn into it. OpenCL C only. See
+ * kernels/camera/camera.h.
  *
- * Triangles of leaves wait until there are sixteen, and are then set up at once (kernels/camera/batch.h). Each is then
- * drawn block by block, four rows of four pixels at once: small triangles meet few blocks.
+ * Triangles found in leaves are queued until there are sixteen, and then set up together (kernels/camera/batch.h). Each
+ * is then drawn block by block, four rows of four pixels at once, since small triangles touch few blocks.
  */
 #pragma once
 
@@ -17,38 +17,38 @@
 /* The far plane's lane in a tile's frustum. */
 #define FAR_PLANE 5
 
-/* Sixteen pixels: a block of four rows of four. */
+/* Width and height of a block: sixteen pixels, four rows of four. */
 #define BLOCK 4
 #define TILE_BLOCKS (CAMERA_TILE / BLOCK)
 #define BLOCK_X (PACK_LANES & 3)
 #define BLOCK_Y (PACK_LANES >> 2)
 
 /*
- * The state of a block. NEAREST: the nearest fragment, of depth NO_DEPTH where there is none. COLUMN: how many
- * fragments so far, the least order number that counts (SCENE_NONE where pixels do not), and that of the last fragment
- * of a full column, SCENE_NONE of another.
+ * The state of a block. NEAREST: the nearest fragment; its depth is NO_DEPTH if there is none. COLUMN: the number of
+ * fragments so far, the least order number that is accepted (SCENE_NONE for pixels outside the rectangle), and the
+ * order number of the last fragment of a full column (SCENE_NONE if it is not full).
  */
 #define NO_DEPTH 2.0f
 struct camera_pack {
 	packu order, instance, primitive;
-	packf b1, b2, depth, steps; /* steps: depth in steps of 2^-24, as it is compared */
+	packf b1, b2, depth, steps; /* steps: depth in steps of 2^-24, as used in comparisons */
 	packi counts;
 	packu first, last;
 };
 
-/* Faces of a tile to be drawn in draw order: a heap, the least order number on top; the lower half of a key says where
- * the face stands. */
+/* Faces of a tile that will be drawn in draw order: a heap with the least order number on top. The lower half of a key
+ * is the face's index. */
 #define LISTED_FULL 512
 struct listed {
-	int is_used, is_drawn; /* a part of them has been drawn already: later ones may come before them */
-	uint n, least;         /* order numbers below the least do not count */
+	int is_used, is_drawn; /* some of them have been drawn already: later finds may precede them */
+	uint n, least;         /* order numbers below `least` are ignored */
 	ulong key[LISTED_FULL];
-	uint instance[LISTED_FULL], place[LISTED_FULL]; /* place: eight times the block of faces, and its lane */
+	uint instance[LISTED_FULL], place[LISTED_FULL]; /* place: eight times the number of the block, plus the lane */
 };
 
 /*
- * Triangles that wait, of instances of the same flags. vertex: in the frame. The first sixteen are drawn when sixteen
- * more have come: the vertices of the later ones are prefetched meanwhile.
+ * Queued triangles, of instances with the same flags. vertex: in the frame. The first sixteen are drawn once sixteen
+ * more have arrived; meanwhile, the vertices of the later ones are prefetched.
  */
 #define PENDING_FULL 32
 struct pending {
@@ -65,19 +65,19 @@ struct tile {
 	__global struct fragment *fragments;
 	uint width, height, mode, first_pixel;
 	int x, y;      /* the first pixel */
-	struct camera_rectangle open; /* pixels of the tile that count, from its first one */
-	packi off_x[TILE_BLOCKS], off_y[TILE_BLOCKS]; /* all ones where a pixel takes no fragments now */
-	packf plane_x[TILE_BLOCKS], plane_y[TILE_BLOCKS]; /* where a view looks in the pixels, as planes count */
-	int is_drawn;  /* a fragment may have come */
-	int changed;   /* a nearest fragment may have been replaced since far and z_far were set */
+	struct camera_rectangle open; /* the rectangle's part of the tile, relative to its first pixel */
+	packi off_x[TILE_BLOCKS], off_y[TILE_BLOCKS]; /* all ones for pixels that accept no fragments now */
+	packf plane_x[TILE_BLOCKS], plane_y[TILE_BLOCKS]; /* sample positions in the pixels, in the planes' coordinates */
+	int is_drawn;  /* 1: a fragment may have been drawn */
+	int changed;   /* 1: a nearest fragment may have been replaced since far and z_far were set */
 	struct batch_far far;
-	float z_far;   /* in normalised device coordinates: nothing behind it matters */
+	float z_far;   /* in normalised device coordinates: everything behind it is hidden */
 	struct pending pending;
-	struct listed listed; /* COLUMN */
+	struct listed listed; /* for COLUMN */
 	struct camera_pack packs[TILE_BLOCKS][TILE_BLOCKS];
 };
 
-/* A candidate: its numbers. */
+/* A candidate fragment. */
 struct candidate {
 	uint order, instance, primitive;
 };
@@ -85,7 +85,10 @@ struct candidate {
 #define LANE_INT(rows, lane) (((const int *)&(rows))[lane])
 #define LANE_FLOAT(rows, lane) (((const float *)&(rows))[lane])
 
-/* Quarter i of four vectors is row i: of blocks side by side, sixteen pixels of a row. */
+/*
+ * Transposes quarters: quarter i of four vectors becomes row i. From adjacent blocks, this makes sixteen pixels of a
+ * row.
+ */
 WIDE_VECTORS static inline void tile_quarters(packu a, packu b, packu c, packu d, packu *row)
 {
 	const packu ab = (packu)(a.lo, b.lo), cd = (packu)(c.lo, d.lo), ab_high = (packu)(a.hi, b.hi),
@@ -99,14 +102,13 @@ WIDE_VECTORS static inline void tile_quarters(packu a, packu b, packu c, packu d
 
 /* --- fragments --------------------------------------------------------------------------------------------------- */
 
-/* What rint does to numbers from 0 to 2^24; PoCL's own takes twenty instructions. From 2^23 on they have no
- * fraction. */
+/* rint for numbers from 0 to 2^24; PoCL's own takes twenty instructions. From 2^23 on, floats have no fraction. */
 WIDE_VECTORS static inline packf round_steps(packf x)
 {
 	return select((x + 0x1p23f) - 0x1p23f, x, x >= 0x1p23f);
 }
 
-/* No branches: which pixels take a candidate cannot be foretold. */
+/* Branchless, since which pixels accept a candidate cannot be predicted. */
 WIDE_VECTORS static inline void keep_nearest(const struct tile *t, struct camera_pack *p, packi covered, packf b1,
                                              packf b2, packf depth, struct candidate c)
 {
@@ -123,7 +125,7 @@ WIDE_VECTORS static inline void keep_nearest(const struct tile *t, struct camera
 	p->depth = select(p->depth, depth, better);
 }
 
-/* Where a pixel of the tile stands in the buffers. */
+/* Index of a pixel of the tile in the buffers. */
 static inline size_t place_of(const struct tile *t, int x, int y)
 {
 	return (uint)(t->y + y) * t->width + (uint)(t->x + x) - t->first_pixel;
@@ -142,7 +144,7 @@ WIDE_VECTORS static inline void keep_in_columns(struct tile *t, int x, int y, pa
 
 		while (place > 0 && column[place - 1].order > c.order)
 			place--;
-		/* A triangle may lie in several leaves. */
+		/* A triangle may be in several leaves. */
 		if (place > 0 && column[place - 1].order == c.order)
 			continue;
 		if (*count < CAMERA_COLUMN_MAX)
@@ -160,7 +162,7 @@ WIDE_VECTORS static inline void keep_in_columns(struct tile *t, int x, int y, pa
 	}
 }
 
-/* The greatest number of each of sixteen vectors, which are overwritten. */
+/* The maximum of each of sixteen vectors, which are overwritten. */
 WIDE_VECTORS static inline packf maxima(packf *v)
 {
 	for (int i = 0; i < 8; i++)
@@ -174,7 +176,7 @@ WIDE_VECTORS static inline packf maxima(packf *v)
 	return pack_max((packf)(v[0].even, v[1].even), (packf)(v[0].odd, v[1].odd));
 }
 
-/* Find the farthest of the nearest fragments, of cells and of all, and move the far plane up to that. */
+/* Find the farthest of the nearest fragments, per cell and overall, and move the far plane up to it. */
 WIDE_VECTORS static inline void shorten(struct tile *t)
 {
 	const float near = t->view->depth_range[0], range = t->view->depth_range[1] - near;
@@ -194,15 +196,18 @@ WIDE_VECTORS static inline void shorten(struct tile *t)
 	four = fmax(eight.lo, eight.hi);
 	two = fmax(four.lo, four.hi);
 	t->far.all = fmax(two.lo, two.hi);
-	/* Else the nearest depth is not the first along the ray. A step more, for equal depths, and what rounding may do. */
+	/*
+	 * Otherwise the nearest depth is not the first along the ray. One step more, for equal depths, plus what rounding
+	 * may do.
+	 */
 	if (range > 0 && t->far.all < NO_DEPTH)
 		t->z_far = fmin(2.0f * ((t->far.all - near) / range + 5e-7f) - 1.0f, 1.0f);
 }
 
 /* --- coverage ---------------------------------------------------------------------------------------------------- */
 
-/* The weight of edge 1 + i's corner in the pixels of a block: its function's value, rounded once, in the whole
- * triangle's. */
+/* The weight of the corner opposite edge 1 + i at the pixels of a block: the edge function's value, rounded once, over
+ * the whole triangle's. */
 WIDE_VECTORS static inline packf weight_at(const struct batch *s, uint lane, int i, uint x, uint y, packi at)
 {
 	packf rounded;
@@ -221,7 +226,10 @@ WIDE_VECTORS static inline packf weight_at(const struct batch *s, uint lane, int
 	return rounded * LANE_FLOAT(s->inverse, lane);
 }
 
-/* In the volume, where the triangle is part of one that leaves it: the fragments' weights are those of the whole. */
+/*
+ * Weights in the volume, for a triangle that is part of one that leaves it: the fragments' weights are those of the
+ * whole triangle.
+ */
 WIDE_VECTORS static inline void weigh_in_volume(const struct clip_corner *const *corner, packf *b1, packf *b2)
 {
 	const packf p0 = (1.0f - *b1 - *b2) * corner[0]->window.w_inv, p1 = *b1 * corner[1]->window.w_inv;
@@ -237,7 +245,10 @@ WIDE_VECTORS static inline packf clamp_depth(packf depth)
 	return select(depth, (packf)(0), depth < 0.0f);
 }
 
-/* What one triangle of a batch covers of a block. at: its edges there. corner: NULL, or the three of a part of one. */
+/*
+ * Draw what one triangle of a batch covers of a block. at: its edge functions there. corner: NULL, or the three corners
+ * of a part
+ */
 WIDE_VECTORS static inline void draw_block(struct tile *t, const struct batch *s, uint lane, uint x, uint y,
                                            packi covered, const packi *at, const struct clip_corner *const *corner,
                                            struct candidate c)
@@ -268,7 +279,7 @@ WIDE_VECTORS static inline void draw_block(struct tile *t, const struct batch *s
 	keep_nearest(t, p, covered, b1, b2, depth, c);
 }
 
-/* All that one triangle of a batch covers. */
+/* Draw all that one triangle of a batch covers. */
 WIDE_VECTORS static inline void draw_triangle(struct tile *t, const struct batch *s, uint lane,
                                               const struct clip_corner *const *corner, struct candidate c)
 {
@@ -298,7 +309,7 @@ WIDE_VECTORS static inline void draw_triangle(struct tile *t, const struct batch
 	}
 }
 
-/* A corner has no place in the window: what the view volume leaves of the triangle is asked. vertex: places in clip. */
+/* A corner has no place in the window: draw what the view volume leaves of the triangle. vertex: indices in clip. */
 static inline void draw_clipped(struct tile *t, uint flags, const uint *vertex, struct candidate c)
 {
 	struct clip_polygon polygon;
@@ -329,7 +340,7 @@ static inline void draw_clipped(struct tile *t, uint flags, const uint *vertex, 
 	}
 }
 
-/* The first sixteen pending faces, or as many as there are. */
+/* Draw the first sixteen pending faces, or fewer if there are fewer. */
 WIDE_VECTORS static inline void draw_pending(struct tile *t)
 {
 	struct pending *pending = &t->pending;

@@ -1,14 +1,14 @@
 /*
  * A tile's faces in draw order. OpenCL C only.
  *
- * Columns that go on from an earlier launch are often deep. Their tiles first list all faces, and draw them in draw
- * order until no pixel has room: a face that comes too early or too late is not set up.
+ * Columns that continue from an earlier launch are often deep. Their tiles first list all faces, then draw them in draw
+ * order until no pixel has room. Faces that come too early or too late are not set up.
  */
 #pragma once
 
 #include "kernels/camera/tile.h"
 
-/* Whether pixels that take fragments now have room in their columns. */
+/* Test whether any open pixel has room in its column. */
 WIDE_VECTORS static inline int has_room(const struct tile *t)
 {
 	packi room = 0;
@@ -22,7 +22,7 @@ WIDE_VECTORS static inline int has_room(const struct tile *t)
 	return any_pack(room);
 }
 
-/* Move a key of the heap down to where it belongs. */
+/* Move a key down the heap to its place. */
 static inline void sink(struct listed *l, uint at)
 {
 	const ulong key = l->key[at];
@@ -37,8 +37,8 @@ static inline void sink(struct listed *l, uint at)
 	l->key[at] = key;
 }
 
-/* Up to sixteen of the list's first faces wait now, of instances of the same flags. A face may lie in several leaves,
- * and is taken once. */
+/* Queue up to sixteen of the list's first faces, of instances with the same flags. A face that is in several leaves is
+ * queued once. */
 static inline void take_listed(struct tile *t)
 {
 	struct pending *pending = &t->pending;
@@ -67,7 +67,7 @@ static inline void take_listed(struct tile *t)
 	}
 }
 
-/* Draw the list, as far as it can come into columns. What is drawn later may come before. */
+/* Draw the list, as far as it can still fit into columns. Faces found afterwards may precede what was drawn. */
 static inline void draw_listed(struct tile *t)
 {
 	struct listed *l = &t->listed;
@@ -82,7 +82,7 @@ static inline void draw_listed(struct tile *t)
 	l->n = 0;
 }
 
-/* A block of faces of an instance for the list. place: among all blocks */
+/* Add a block of an instance's faces to the list. place: index among all blocks */
 static inline void list_faces(struct tile *t, uint index, uint place)
 {
 	const uint first = t->instances[index].primitive_first;
@@ -102,7 +102,7 @@ static inline void list_faces(struct tile *t, uint index, uint place)
 
 /* --- columns ----------------------------------------------------------------------------------------------------- */
 
-/* Of a block's pixels, the least order numbers that count. after: of pixels, as camera.h has it */
+/* The least order numbers that a block's pixels accept. after: per pixel, as in camera.h */
 static inline packu columns_begin(const struct tile *t, int x, int y, __global const uint *after)
 {
 	packu first = SCENE_NONE;

@@ -1,13 +1,13 @@
 /*
- * Which triangles a tile sees: its rays go through the trees as one frustum against eight boxes at once, nearest child
- * first. Of the tile's nearest fragments the farthest cuts the frustum off. OpenCL C only.
+ * Finds the triangles that a tile sees: its rays traverse the trees as one frustum against eight boxes at once, nearest
+ * child first. The farthest of the tile's nearest fragments shortens the frustum. OpenCL C only.
  */
 #pragma once
 
 #include "kernels/camera/tile_list.h"
 
-/* A block of faces of an instance waits now, or is listed; the first sixteen are drawn where that is enough. place:
- * among all blocks */
+/* Queue a block of an instance's faces, or list it. The first sixteen queued are drawn once there are enough. place:
+ * index among all blocks */
 static inline void add_faces(struct tile *t, uint index, uint place)
 {
 	const uint vertex_first = t->instances[index].vertex_first;
@@ -36,16 +36,15 @@ static inline void add_faces(struct tile *t, uint index, uint place)
 		draw_pending(t);
 }
 
-/* Where the view looks, pixels from their centres. */
+/* Sample position, in pixels from the pixels' centres. */
 static inline float tile_sample(const struct tile *t, int axis)
 {
 	return (float)t->view->sample[axis] * 0.00390625f;
 }
 
 /*
- * The tile's frustum in the space that `m` (3 rows of 4; NULL: eye space) leads from into eye space. With clip
- * coordinates x y z w, a pixel centre between X0 and X1 means X0 w <= x <= X1 w, and so on; all are linear in the
- * point.
+ * The tile's frustum in the space that `m` (3 rows of 4; NULL: eye space) maps to eye space. With clip coordinates x y
+ * z w, a pixel centre between X0 and X1 satisfies X0 w <= x <= X1 w, and likewise for y; all are linear in the point.
  */
 static inline struct frustum tile_frustum(const struct tile *t, __global const float *m, struct vec3 extent)
 {
@@ -54,10 +53,10 @@ static inline struct frustum tile_frustum(const struct tile *t, __global const f
 	const float scale_x = 2.0f / view->viewport[2], scale_y = 2.0f / view->viewport[3];
 	const float left = (float)t->x + tile_sample(t, 0) - view->viewport[0];
 	const float low = (float)t->y + tile_sample(t, 1) - view->viewport[1];
-	/* A pixel's hundredth more: snapping moves edges by 1/512. */
+	/* A hundredth of a pixel wider, as snapping moves edges by 1/512. */
 	const float x0 = (left + 0.49f) * scale_x - 1.0f, x1 = (left + CAMERA_TILE - 0.49f) * scale_x - 1.0f;
 	const float y0 = (low + 0.49f) * scale_y - 1.0f, y1 = (low + CAMERA_TILE - 0.49f) * scale_y - 1.0f;
-	/* Lanes: left, right, bottom, top, near, far, in front of the viewer, and one that is always met. */
+	/* Lanes: left, right, bottom, top, near, far, in front of the viewer, and one that every box passes. */
 	const float8 of_x = (float8)(1, -1, 0, 0, 0, 0, 0, 0), of_y = (float8)(0, 0, 1, -1, 0, 0, 0, 0);
 	const float8 of_z = (float8)(0, 0, 0, 0, 1, -1, 0, 0), of_w = (float8)(-x0, x1, -y0, y1, 1, t->z_far, 1, 0);
 	float8 e[4], abs_e[4], o[4], abs_o[4];
@@ -77,13 +76,13 @@ static inline struct frustum tile_frustum(const struct tile *t, __global const f
 	return frustum_make(o[0], o[1], o[2], o[3], abs_o[0], abs_o[1], abs_o[2], abs_o[3], extent);
 }
 
-/* A node, or a leaf of `count` blocks of faces, and how far it reaches before the far plane. */
+/* A node, or a leaf of `count` blocks of faces, and how far it reaches in front of the far plane. */
 struct tile_entry {
 	float reach;
 	uint child, count;
 };
 
-/* Push the children of a node that the tile may see; the one that reaches farthest before the far plane is popped
+/* Push the children of a node that the tile may see. The one that reaches farthest in front of the far plane is popped
  * first. nodes, faces: the instance's. */
 static inline uint tile_push_children(const struct frustum8 *f, __global const struct node8 *nodes,
                                       __global const struct face8 *faces, uint index, struct tile_entry *stack,
@@ -138,7 +137,7 @@ static inline void tile_walk_blas(struct tile *t, uint index)
 		if (entry.count == 0) {
 			depth = tile_push_children(&f, nodes, faces, entry.child, stack, depth);
 		} else {
-			/* A leaf's faces are on their way for as long as another leaf's are added. */
+			/* A leaf's faces are prefetched one leaf before they are added. */
 			for (uint i = 0; i < leaf.count; i++)
 				add_faces(t, index, instance->triangle8_first + leaf.child + i);
 			leaf = entry;
@@ -173,7 +172,7 @@ static inline void tile_walk_top(struct tile *t, __global const struct node2 *to
 		const struct frustum f = tile_frustum(t, 0, frustum_extent(top));
 		const int first = frustum_reach(&f, node, 1).s5 > frustum_reach(&f, node, 0).s5;
 
-		/* Nearest first: instances at once, of inner children the farther one is pushed before the nearer. */
+		/* Nearest first: instances are handled at once; of two inner children, the farther one is pushed first. */
 		for (int i = 0; i < 2; i++) {
 			const uint side = first ^ i;
 
@@ -191,7 +190,7 @@ static inline void tile_walk_top(struct tile *t, __global const struct node2 *to
 	}
 }
 
-/* Geometry in window space: where the view looks in pixels are points. */
+/* Geometry in window space is tested at the sample positions, as points. */
 static inline void walk_screen(struct tile *t, uint index)
 {
 	__global const struct instance *instance = &t->instances[index];
@@ -220,7 +219,7 @@ static inline void walk_screen(struct tile *t, uint index)
 		draw_pending(t);
 }
 
-/* Pixels of the tile between places x0 and x1, y0 and y1 take fragments from now on. */
+/* Open the tile's pixels between x0 and x1, y0 and y1: they accept fragments from now on. */
 WIDE_VECTORS static inline void open_pixels(struct tile *t, float x0, float y0, float x1, float y1)
 {
 	for (int i = 0; i < TILE_BLOCKS; i++) {
@@ -252,7 +251,7 @@ WIDE_VECTORS static inline void clear_tile(struct tile *t)
 
 			p->order = p->instance = p->primitive = SCENE_NONE;
 			p->b1 = p->b2 = 0;
-			/* Where pixels do not count nothing is farther than what is there. */
+			/* Pixels outside the rectangle never limit the farthest depth. */
 			p->depth = select((packf)(0), (packf)(NO_DEPTH),
 			                  (BLOCK_X + BLOCK * x >= t->open.x0) & (BLOCK_X + BLOCK * x < t->open.x1) &
 			                  (BLOCK_Y + BLOCK * y >= t->open.y0) & (BLOCK_Y + BLOCK * y < t->open.y1));
@@ -260,7 +259,7 @@ WIDE_VECTORS static inline void clear_tile(struct tile *t)
 		}
 }
 
-/* What the view shows in the tile from t->x, t->y on. a: what camera_packet takes */
+/* Draw what the view shows in the tile at t->x, t->y. a: camera_packet's arguments */
 static inline void tile_draw(const struct camera_packet_arguments *a, struct tile *t)
 {
 	__global const struct view *view = &a->pass.views[a->pass.view_index];
