@@ -574,7 +574,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(hit_ray_packet, hit_ray) \
 	X(ao_ray, ao_ray)               /* one fragment per work item: an ambient occlusion ray */ \
 	X(shadow_sum, shadow_sum)       /* one light ray per work item: full visibility if nothing stopped it */ \
-	X(shadow_start, shadow_start)   /* one stopped ray a work item: into a list, to go on through what lets light pass */ \
+	X(shadow_start, shadow_start)   /* one stopped light ray per work item: listed, to pass what lets light through */ \
 	X(shadow_walk, shadow_walk)     /* one listed ray per work item: continues it beyond its hit */ \
 	X(scan_sum, scan_sum)           /* one chunk of counts per work item: their sum */ \
 	X(scan_place, scan_place)       /* the same: the place of each count's results */ \

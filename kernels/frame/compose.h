@@ -1,8 +1,9 @@
 /*
- * A finished frame as the planes of its picture, one pixel a work item. compose_packet does sixteen (pack_compose.h).
+ * Converts a finished frame to the planes of its picture, one pixel per work item. compose_packet converts sixteen at
+ * once (pack_compose.h).
  *
  * Beauty = gl x shadow + relight + reflect + refract holds for the numbers as they are stored: each part is rounded to
- * half before the next is computed from it, so what rounding leaves ends in relight and reflect.
+ * half before the next is computed from it, so rounding errors end up in relight and reflect.
  */
 #pragma once
 
@@ -10,7 +11,10 @@
 #include "kernels/gl/point.h"
 #include "kernels/frame/sample.h"
 
-/* Of a code's half width of 0.5: a half of 0.5 and more is good to 1/16 of a code. */
+/*
+ * Largest distance from a code's centre, in codes (borders are at 0.5). A half of 0.5 and more is accurate to 1/16 of a
+ * code.
+ */
 #define COMPOSE_CODE_REACH 0.43f
 
 #include "kernels/frame/compose_lanes.h"
@@ -26,13 +30,13 @@
 #define COLOR_ALBEDO 15u
 #define N_COLORS 18u
 
-/* A pixel on its way. */
+/* A pixel while it is composed. */
 struct compose_pixel {
 	float display[N_COLORS], color[N_COLORS]; /* before and after encoding */
 	float halves[N_COMPOSE_HALVES], floats[N_COMPOSE_FLOATS];
 };
 
-/* One colour channel, taken apart. */
+/* Decompose one colour channel. */
 static inline void compose_channel(struct compose_pixel *p, uint32_t c)
 {
 	float exact = p->color[COLOR_GL + c], gl = compose_rounded(exact), shadowed = p->color[COLOR_SHADOWED + c];
@@ -56,7 +60,7 @@ static inline void compose_channel(struct compose_pixel *p, uint32_t c)
 	p->halves[COMPOSE_ALBEDO + c] = p->color[COLOR_ALBEDO + c];
 }
 
-/* One number encoded. Most stand for what the number before them stands for, which is known already. */
+/* Encode one value. Most equal the value before them, whose encoding is already known. */
 static inline void compose_encode(struct compose_pixel *p, uint32_t i, uint32_t is_display)
 {
 	if (is_display)
@@ -67,7 +71,7 @@ static inline void compose_encode(struct compose_pixel *p, uint32_t i, uint32_t 
 		p->color[i] = encode_linear(p->display[i]);
 }
 
-/* Where the visible surface of a pixel lies; all 0 where there is none. */
+/* Position of a pixel's visible surface; all 0 if there is none. */
 static inline void compose_surface(const struct tables *t, GLOBAL const struct window_vertex *windows,
                                    const struct fragment *f, struct vec3 *normal, struct vec3 *position)
 {
@@ -81,13 +85,13 @@ static inline void compose_surface(const struct tables *t, GLOBAL const struct w
 	*position = point_position(&p);
 }
 
-/* A part of a pass as it is added up: light where paths were followed in it, else GL's number. */
+/* A part of a pass as it is summed: light if paths were followed, else GL's number. */
 static inline float compose_part(float display, uint32_t radiant)
 {
 	return radiant ? encode_linear(display) : display;
 }
 
-/* What is taken from a pixel: all but the colours' encoding and what follows from it. */
+/* Load a pixel: everything except the colours' encoding and what follows from it. */
 static inline void compose_load(const struct compose_arguments *a, GLOBAL const struct frame_pixel *pixel,
                                 uint32_t number, struct compose_pixel *p)
 {
@@ -125,7 +129,10 @@ static inline void compose_load(const struct compose_arguments *a, GLOBAL const 
 	p->floats[COMPOSE_LAYERS] = (float)pixel->layers;
 }
 
-/* GL's number goes off the borders between codes, and what equals it with it: no effect comes of it. */
+/*
+ * Move GL's number off the borders between codes, and all values that equal it along with it, so that no effect
+ * results.
+ */
 static inline void compose_nudge(struct compose_pixel *p, uint32_t c)
 {
 	const float gl = p->display[COLOR_GL + c], nudged = compose_nudged(gl);
@@ -134,12 +141,12 @@ static inline void compose_nudge(struct compose_pixel *p, uint32_t c)
 		p->display[i] = p->display[i] == gl ? nudged : p->display[i];
 }
 
-/* From pixels as they were loaded to numbers as they are stored. */
+/* From pixels as loaded to numbers as stored. */
 static inline void compose_colors(struct compose_pixel *p, const struct compose_request *r)
 {
 	for (uint32_t c = 0u; c < 3u; c++)
 		compose_nudge(p, c);
-	for (uint32_t c = 0u; c < 3u && r->normals; c++) /* the normal as a colour, in place of GL's */
+	for (uint32_t c = 0u; c < 3u && r->normals; c++) /* the normal as a colour, replacing GL's */
 		p->display[COLOR_GL + c] = p->halves[COMPOSE_BEAUTY + 3u] > 0.0f ? p->halves[COMPOSE_NORMAL + c] * 0.5f + 0.5f : 0.0f;
 	for (uint32_t i = 0u; i < N_COLORS; i++)
 		compose_encode(p, i, r->display);
@@ -149,7 +156,7 @@ static inline void compose_colors(struct compose_pixel *p, const struct compose_
 		p->halves[COMPOSE_BEAUTY + c] = p->color[COLOR_GL + c];
 }
 
-/* Numbers as they are stored, to a place in the planes. */
+/* Store a pixel's numbers at an index in the planes. */
 static inline void compose_store(const struct compose_pixel *p, const struct compose_request *r, uint32_t at,
                                  GLOBAL uint16_t *halves, GLOBAL float *floats)
 {
@@ -162,8 +169,8 @@ static inline void compose_store(const struct compose_pixel *p, const struct com
 }
 
 /*
- * A pixel, by its number in the band, to a place in the planes. a->sums: what add_pass left of the parts of all passes
- * but this one; not looked at where there is but one.
+ * Compose a pixel, given by its number in the band, into the planes. a->sums: the parts of all other passes, as
+ * add_pass summed them; ignored if there is only one pass.
  */
 static inline void compose_one(const struct compose_arguments *a, GLOBAL const struct frame_pixel *pixel,
                                uint32_t number, uint32_t at)
@@ -175,13 +182,13 @@ static inline void compose_one(const struct compose_arguments *a, GLOBAL const s
 	compose_store(&p, &a->request, at, a->halves, a->floats);
 }
 
-/** Work items of compose_packet for a band of so many rows. */
+/** Work items of compose_packet for a band of `height` rows. */
 static inline uint32_t compose_items(uint32_t width, uint32_t height)
 {
 	return frame_columns(width) * ((height + COMPOSE_ROWS - 1u) / COMPOSE_ROWS);
 }
 
-/* The place of a pixel of the band, counted from the bottom row, in the planes, which are from the top. */
+/* Index in the planes, which start with the top row, of a pixel of the band, whose rows count from the bottom. */
 static inline uint32_t compose_at(const struct compose_request *r, uint32_t number)
 {
 	return (r->height - 1u - number / r->width) * r->width + number % r->width;
@@ -193,7 +200,10 @@ static inline void compose_item(const struct compose_arguments *a, uint32_t item
 	compose_one(a, &a->frame[item], item, compose_at(&a->request, item));
 }
 
-/* add_pass: the parts of one pass's pixels to the sums of all, of those of a turn. first: there are none yet. */
+/*
+ * add_pass: adds the parts of one pass to the sums of all, for the pixels of a turn. first: 1: nothing has been summed
+ * yet.
+ */
 static inline void add_pass_item(const struct add_pass_arguments *a, uint32_t item)
 {
 	GLOBAL const struct frame_pixel *pixel = &a->frame[item];

@@ -1,11 +1,12 @@
-/*
- * compose_packet: compose with sixteen pixels of a row at once, for CPUs (kernels/frame/pack_compose.h).
- */
+/* compose_packet: compose for sixteen pixels of a row at once, for CPUs (kernels/frame/pack_compose.h). */
 #include "kernels/frame/pack_compose.h"
 
-#define PIXEL_WORDS 31 /* of struct frame_pixel */
+#define PIXEL_WORDS 31 /* words in struct frame_pixel */
 
-/* The pixels' numbers, from records to rows. list: receives their surfaces. @return a bit for each that has one */
+/*
+ * Transpose the pixels' values from records to rows. list: receives their surfaces. @return a bit for each pixel that
+ * has one
+ */
 WIDE_VECTORS static inline uint load_pixels(__global const struct frame_pixel *first, packu place,
                                             struct pack_pixels *p, struct pack_list *list)
 {
@@ -42,7 +43,7 @@ WIDE_VECTORS static inline uint load_pixels(__global const struct frame_pixel *f
 	return pack_bits(as_uint16(row[20]) != SCENE_NONE);
 }
 
-/* What add_pass left of the other passes. */
+/* Add the sums that add_pass made of the other passes. */
 WIDE_VECTORS static inline void add_sums(__global const float *sums, packu place, float n_passes, struct pack_pixels *p)
 {
 	packf row[PASS_PARTS];
@@ -57,7 +58,7 @@ WIDE_VECTORS static inline void add_sums(__global const float *sums, packu place
 	}
 }
 
-/* Where the surfaces of some lanes lie. */
+/* Positions of some lanes' surfaces. */
 static inline void find_surfaces(const struct compose_arguments *a, const struct pack_list *list, uint lanes,
                                  struct pack_pixels *pixels)
 {
@@ -89,11 +90,11 @@ static inline void find_surfaces(const struct compose_arguments *a, const struct
 	}
 }
 
-/* drawn: 0 where the row's pixels are still as a->cleared */
+/* drawn: 0 if the row's pixels still equal a->cleared */
 static inline void compose_drawn_row(const struct compose_arguments *a, uint x, uint y, uint drawn,
                                      const struct pack_planes *to)
 {
-	/* Lanes beyond the row repeat its last pixel. */
+	/* Lanes beyond the end of the row repeat its last pixel. */
 	const packu place = y * a->request.width + min(x + as_uint16(PACK_LANES), a->request.width - 1);
 	struct pack_pixels pixels;
 	struct pack_encoded encoded;
@@ -113,7 +114,7 @@ KERNEL_OF(float16) void compose_packet(KERNEL_ARGUMENTS(compose))
 	const struct compose_arguments a = KERNEL_STRUCT(compose);
 	const uint columns = frame_columns(request.width), column = (uint)get_global_id(0) % columns, x = column * FRAME_ROW;
 	const uint first = (uint)get_global_id(0) / columns * COMPOSE_ROWS, end = min(first + COMPOSE_ROWS, request.height);
-	uint empty = SCENE_NONE; /* where a row to which nobody drew stands in the planes */
+	uint empty = SCENE_NONE; /* index in the planes of a row that nothing was drawn to */
 
 	for (uint y = first; y < end; y++) {
 		const struct pack_planes to = pack_planes_of(&a.request, halves, floats, x, y);

@@ -1,4 +1,4 @@
-/* Light from all around: see kernels/frame/dome.h. Compiled where rules ask for it. */
+/* Light from the dome: see kernels/frame/dome.h. Compiled only if rules ask for it. */
 #include "kernels/frame/dome.h"
 
 KERNEL_OF(float4) void dome_find(KERNEL_ARGUMENTS(dome_find)) KERNEL_ITEMS(dome_find, n)

@@ -1,47 +1,48 @@
 /*
- * Light from all around (scene_dome): one fragment of the list a work item. On what GL lights a share of it counts.
+ * Light from all around (scene_dome): one listed fragment per work item. Surfaces that GL lights take a given share of
+ * it.
  *
- * Pixels of a block share a set of directions, each has its part of them (A. Keller and W. Heidrich, "Interleaved
- * Sampling", 2001). A fragment takes the mean over the block around it, of neighbours on the same surface; where these
- * are few, of all that face the same way. So few rays make no noise. What is left of a block with too few rays counts
- * in proportion.
+ * Pixels of a block share a set of directions, of which each traces its own part (A. Keller and W. Heidrich,
+ * "Interleaved Sampling", 2001). A fragment receives the mean over the block around it: of neighbours on the same
+ * surface or, if these are few, of all neighbours that face the same way. This keeps noise away with few rays. If a
+ * block still has too few rays, its light counts in proportion.
  *
- * How far a ray looks differs from ray to ray, evenly in the logarithm: what is near dims the light more than what is
- * far, whatever the scene's scale (after S. Zhukov, A. Iones and G. Kronin, "An ambient light illumination model",
- * 1998).
+ * The distance that a ray looks varies from ray to ray, evenly in its logarithm, so near surfaces dim the light more
+ * than far ones, whatever the scene's scale (after S. Zhukov, A. Iones and G. Kronin, "An ambient light illumination
+ * model", 1998).
  */
 #pragma once
 
 #include "kernels/camera/camera.h"
 #include "kernels/frame/plain.h"
 
-/* Blocks of pixels, across and down. */
+/* Width and height of a block of pixels. */
 #define DOME_BLOCK 4u
-/* Columns of a tile of dome_light_packet. */
+/* Columns in a tile of dome_light_packet. */
 #define DOME_WIDTH 16u
-/* Of the rays of a block: with no more of them, all that face the same way count; with less of those, the mean counts
- * in proportion. */
+/* Shares of a block's rays. With DOME_OWN or fewer on the same surface, all that face the same way count; with fewer
+ * than the second, the mean counts in proportion. */
 #define DOME_OWN 0.5f
 #define DOME_ENOUGH 0.25f
-/* The nearest that a ray looks, as a share of the dome's reach: e to the power of minus this. */
+/* Shortest distance that a ray looks, as a share of the dome's reach: e to the power of minus this. */
 #define DOME_SPAN 4.158883f
-/* What is left of a colour where no light arrives. */
+/* Share of a colour that remains where no light arrives. */
 #define DOME_LEFT 0.15f
 
-/* Which part of its block's directions a pixel has. */
+/* The part of its block's directions that a pixel traces. */
 static inline uint32_t dome_part(uint32_t number, uint32_t width)
 {
 	return number / width % DOME_BLOCK * DOME_BLOCK + number % width % DOME_BLOCK;
 }
 
-/* A direction of the pixel's part, turned to the surface. across, along: sample_basis of the normal */
+/* A direction of the pixel's part, rotated to the surface. across, along: sample_basis of the normal */
 static inline struct vec3 dome_turned(GLOBAL const float *direction, struct vec3 n, struct vec3 across,
                                       struct vec3 along)
 {
 	return v3_add(v3_add(v3_scale(across, direction[0]), v3_scale(along, direction[1])), v3_scale(n, direction[2]));
 }
 
-/* A fragment that takes no light from the dome. */
+/* Mark a fragment as receiving no light from the dome. */
 static inline void dome_find_none(const struct dome_find_arguments *a, uint32_t item)
 {
 	GLOBAL struct dome_place *place = &a->places[item];
@@ -53,7 +54,7 @@ static inline void dome_find_none(const struct dome_find_arguments *a, uint32_t 
 		stage_no_ray(&a->rays[i * a->n + item]);
 }
 
-/* dome_find: where a fragment takes the dome's light, and its looks around. */
+/* dome_find: where a fragment receives the dome's light, and its dome rays. */
 static inline void dome_find_item(const struct dome_find_arguments *a, uint32_t item)
 {
 	struct fragment f = a->fragments[item];
@@ -91,7 +92,7 @@ static inline void dome_find_item(const struct dome_find_arguments *a, uint32_t 
 	}
 }
 
-/* The direction of a part of a block, and how far to look. sample: which of the pixel's rays, over all passes */
+/* The direction and length of a ray of a part of a block. sample: which of the pixel's rays, over all passes */
 static inline void dome_direction(const struct scene_dome *dome, uint32_t part, uint32_t sample, float *out)
 {
 	const uint32_t index = sample * DOME_BLOCK * DOME_BLOCK + part;
@@ -106,7 +107,7 @@ static inline void dome_direction(const struct scene_dome *dome, uint32_t part, 
 	out[3] = dome->reach * M_EXP(-DOME_SPAN * sample_unit(index * 2654435769u));
 }
 
-/* The share of the sky's colour, not of the ground's, in a direction. */
+/* Weight of the sky's colour, as opposed to the ground's, in a direction. */
 static inline float dome_height(const struct scene_dome *dome, struct vec3 d)
 {
 	const struct vec3 up = v3(dome->up_eye[0], dome->up_eye[1], dome->up_eye[2]);
@@ -114,11 +115,12 @@ static inline float dome_height(const struct scene_dome *dome, struct vec3 d)
 	return v3_dot(up, up) > 0.0f ? 0.5f + 0.5f * v3_dot(up, d) : 1.0f;
 }
 
-/* dome_sum: the light that looks around saw. */
+/* dome_sum: sums the light that the dome rays found. */
 static inline void dome_sum_item(const struct dome_sum_arguments *a, uint32_t item)
 {
 	const struct scene_dome *dome = &a->dome;
-	const int same = dome_height(dome, v3(0.0f, 0.0f, 0.0f)) == 1.0f; /* in all directions */
+	const int same = dome_height(dome, v3(0.0f, 0.0f, 0.0f)) == 1.0f; /* 1: the dome has the same colour in all
+                                                                       * directions */
 	GLOBAL float *sums = a->sums + item * 4u;
 	float sum[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
 
@@ -137,7 +139,7 @@ static inline void dome_sum_item(const struct dome_sum_arguments *a, uint32_t it
 		sums[k] = sum[k];
 }
 
-/** How many columns of tiles dome_light_packet takes. */
+/** Number of tile columns of dome_light_packet. */
 static inline uint32_t dome_columns(uint32_t width)
 {
 	return (width + DOME_WIDTH - 1u) / DOME_WIDTH;
@@ -153,7 +155,7 @@ static inline uint32_t dome_most(uint32_t a, uint32_t b)
 	return a > b ? a : b;
 }
 
-/* The first of DOME_BLOCK rows or columns about one, all from `low` up to `high`. */
+/* First of the DOME_BLOCK rows or columns around one, limited to low .. high. */
 static inline uint32_t dome_first(uint32_t at, uint32_t low, uint32_t high)
 {
 	const uint32_t first = at > low + DOME_BLOCK / 2u ? at - DOME_BLOCK / 2u : low;
@@ -161,13 +163,13 @@ static inline uint32_t dome_first(uint32_t at, uint32_t low, uint32_t high)
 	return first + DOME_BLOCK <= high ? first : high > low + DOME_BLOCK ? high - DOME_BLOCK : low;
 }
 
-/* 1 where two places face about the same way. */
+/* 1 if two places face roughly the same way. */
 static inline int dome_is_alike(GLOBAL const struct dome_place *a, GLOBAL const struct dome_place *b)
 {
 	return b->strength > 0.0f && v3_dot(v3_load(a->normal), v3_load(b->normal)) > 0.9f;
 }
 
-/* 1 where two places that face the same way lie on about one plane. */
+/* 1 if two places that face the same way are roughly on one plane. */
 static inline int dome_is_level(GLOBAL const struct dome_place *a, GLOBAL const struct dome_place *b)
 {
 	const struct vec3 apart = v3_sub(v3_load(b->from), v3_load(a->from));
@@ -176,13 +178,13 @@ static inline int dome_is_level(GLOBAL const struct dome_place *a, GLOBAL const 
 	return off * off <= 0.1f * v3_dot(apart, apart);
 }
 
-/* Rays that a block has where all of its pixels lie on one surface. own: of one pixel */
+/* Number of rays of a block whose pixels are all on one surface. own: rays per pixel */
 static inline float dome_rays(float own)
 {
 	return (float)(DOME_BLOCK * DOME_BLOCK) * own;
 }
 
-/* The light that an open sky sends. A surface between upright and level keeps its colour where nothing dims the
+/* The light of an unobstructed dome. A surface between vertical and horizontal keeps its colour where nothing dims the
  * light. */
 static inline float dome_open(const struct scene_dome *dome)
 {
@@ -194,7 +196,7 @@ static inline float dome_open(const struct scene_dome *dome)
 	return open;
 }
 
-/* What GL's colour becomes in the mean light of a block. own: rays of one pixel */
+/* Factor for GL's colour under the mean light of a block. own: rays per pixel */
 static inline struct vec3 dome_factor(const struct scene_dome *dome, const float *sum, float own, float strength)
 {
 	const float whole = sum[3] * dome_open(dome), enough = DOME_ENOUGH * dome_rays(own);
@@ -206,14 +208,14 @@ static inline struct vec3 dome_factor(const struct scene_dome *dome, const float
 	return v3(f[0], f[1], f[2]);
 }
 
-/* A fragment's colours times a factor. */
+/* Multiply a fragment's colours by a factor. */
 static inline void dome_apply(GLOBAL struct shaded *s, struct vec3 factor)
 {
 	const struct vec3 direct = v3_load(s->direct);
 	const float was = v3_most(direct), brightest = v3_most(v3_mul(direct, factor));
 	struct vec3 more;
 
-	if (brightest > 1.0f) /* no more than white */
+	if (brightest > 1.0f) /* not brighter than white */
 		factor = v3_scale(factor, M_MAX(was, 1.0f) / brightest);
 	more = v3_mul(direct, v3_sub(factor, v3(1.0f, 1.0f, 1.0f)));
 	v3_store(s->shadowed,
@@ -223,8 +225,8 @@ static inline void dome_apply(GLOBAL struct shaded *s, struct vec3 factor)
 	v3_store(s->beauty, v3_add(v3_load(s->beauty), more));
 }
 
-/* Rows of the tile that a row of the band lies in, as far as the rectangle goes. Bands end where tiles do, and so do
- * blocks. */
+/* First and last row, within the rectangle, of the tile that a row of the band belongs to. Bands end at tile borders,
+ * and so do blocks. */
 static inline void dome_rows(const struct dome_light_arguments *a, uint32_t y, uint32_t *bottom, uint32_t *top)
 {
 	const uint32_t low = y / CAMERA_TILE * CAMERA_TILE;
@@ -233,7 +235,7 @@ static inline void dome_rows(const struct dome_light_arguments *a, uint32_t y, u
 	*bottom = dome_most((uint32_t)a->rectangle.y0, low);
 }
 
-/* The fragments of a pixel of the band. @return the first of them */
+/* The number of fragments of a pixel of the band. @return the first of them */
 static inline uint32_t dome_items(const struct dome_light_arguments *a, uint32_t x, uint32_t y, uint32_t *count)
 {
 	uint32_t base;
@@ -247,7 +249,7 @@ static inline uint32_t dome_items(const struct dome_light_arguments *a, uint32_t
 	return base + x % PLAIN_WIDTH;
 }
 
-/* The light of the block about a fragment, into sum[4]: column by column. x, y: its pixel in the band */
+/* Add the light of the block around a fragment to sum[4], column by column. x, y: its pixel in the band */
 static inline void dome_add_block(const struct dome_light_arguments *a, uint32_t item, uint32_t x, uint32_t y,
                                   float *sum)
 {
@@ -284,7 +286,10 @@ static inline void dome_add_block(const struct dome_light_arguments *a, uint32_t
 			sum[k] = alike[k];
 }
 
-/* A fragment's light, in the frame or to a->factors. Colours are GL's numbers, which are about the roots of light. */
+/*
+ * Apply a fragment's light, in the frame or to a->factors. Colours are GL's numbers, which are roughly square roots of
+ * light.
+ */
 static inline void dome_light_at(const struct dome_light_arguments *a, uint32_t item, uint32_t x, uint32_t y)
 {
 	const float strength = a->places[item].strength;

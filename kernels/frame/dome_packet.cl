@@ -1,22 +1,22 @@
 /*
- * dome_find_packet, dome_light_packet: kernels/frame/dome.h for CPUs, sixteen fragments at once and to the same bits.
- * plain_dome: what rays a plain frame sends there (kernels/frame/plain.h).
+ * dome_find_packet, dome_light_packet: kernels/frame/dome.h for CPUs, sixteen fragments at once with bit-identical
+ * results. plain_dome: the rays that a plain frame sends (kernels/frame/plain.h).
  *
- * dome_light_packet lays the fragments of a tile out as rows first: a pixel's neighbours are its own row and others,
- * moved by some places. Where pixels have several lit fragments, there are several layers of rows.
+ * dome_light_packet first lays out the fragments of a tile as rows, so that a pixel's neighbours are its own and other
+ * rows at an offset. If pixels have several lit fragments, there are several layers of rows.
  */
 #include "kernels/frame/dome.h"
 #include "kernels/frame/plain_row.h"
 
 /* --- Looks around ------------------------------------------------------------------------------------------------ */
 
-/* Whether packs know the light that fog leaves of a material. */
+/* Test whether packs can compute the share of a material's colour that is not fog. */
 static inline int knows(__global const struct scene_material *m)
 {
 	return !m->fog || m->fog_mode == GL_LINEAR;
 }
 
-/* The fragments of a work item; those that take no light are done. */
+/* Find the fragments of a work item that receive light; the others are done here. */
 static inline void find_left(const struct dome_find_arguments *a, uint first, struct pack_left *left)
 {
 	left->first = first;
@@ -37,14 +37,14 @@ static inline void find_left(const struct dome_find_arguments *a, uint first, st
 	}
 }
 
-/* Where sixteen fragments take light from all around. */
+/* Where sixteen fragments receive the dome's light. */
 struct looks {
 	struct vec3_16 o, axes[3]; /* axes[2]: the normal */
-	packf strength;             /* 0: none takes any */
-	packu part;                 /* of their blocks' directions */
+	packf strength;             /* 0: receives none */
+	packu part;                 /* the lanes' parts of their blocks' directions */
 };
 
-/* Fragments of one material that takes such light. height: as they were located for */
+/* For fragments of one material that receive the dome's light. height: as for their location */
 WIDE_VECTORS static inline void look_around(const struct dome_find_arguments *a, const struct pack *p, uint height,
                                             const struct pack_surface *surface, struct looks *l)
 {
@@ -58,7 +58,7 @@ WIDE_VECTORS static inline void look_around(const struct dome_find_arguments *a,
 	sample_basis(l->axes[2], &l->axes[0], &l->axes[1]);
 }
 
-/* The directions of a sample, and how far they look. */
+/* Directions and lengths of a sample's rays. */
 WIDE_VECTORS static inline struct vec3_16 look_along(const struct dome_find_arguments *a, const struct looks *l,
                                                       uint sample, packf *reach)
 {
@@ -70,7 +70,7 @@ WIDE_VECTORS static inline struct vec3_16 look_along(const struct dome_find_argu
 	                v3_scale(l->axes[2], row[2]));
 }
 
-/* Some lanes' place and rays, to where they stand in the list. */
+/* Store some lanes' place and rays at their index in the list. */
 static inline void store_looks(const struct dome_find_arguments *a, const struct pack_list *list, uint lanes,
                                const struct looks *l)
 {
@@ -142,14 +142,14 @@ KERNEL_OF(float16) void dome_find_packet(KERNEL_ARGUMENTS(dome_find))
 
 /* --- Plain frames ------------------------------------------------------------------------------------------------ */
 
-/* What is kept from one fragment to the next. */
+/* Kept from one fragment to the next. */
 struct dome_kept {
 	struct pack_kept pack;
 	struct setup_kept one;
 	struct shadow_kept ray;
 };
 
-/* What dome_find_item takes, for fragments of a->fragments. */
+/* Arguments of dome_find_item for fragments in a->fragments. */
 static inline struct dome_find_arguments looks_of(const struct plain_arguments *a)
 {
 	const struct dome_find_arguments d = {
@@ -161,8 +161,8 @@ static inline struct dome_find_arguments looks_of(const struct plain_arguments *
 	return d;
 }
 
-/* Those of one material: the rays to lights, as plain sends them, and the rest to their lanes of `looks`. @return those
- * that are done */
+/* For fragments of one material: the rays to lights, sent as in plain, and dome data in their lanes of `looks`. @return
+ * the lanes that are done */
 static inline uint look_lanes(const struct plain_arguments *a, const struct shade_arguments *s,
                               const struct plain_row *row, uint lanes, struct pack_kept *kept, struct looks *looks)
 {
@@ -199,7 +199,7 @@ static inline uint look_lanes(const struct plain_arguments *a, const struct shad
 	return lanes;
 }
 
-/* Four numbers of sixteen records, those of four records together. */
+/* Transpose four numbers of sixteen records, keeping each four records together. */
 WIDE_VECTORS static inline void turn(packf x, packf y, packf z, packf w, packf *out)
 {
 	out[0] = (packf)(x.s0, y.s0, z.s0, w.s0, x.s1, y.s1, z.s1, w.s1, x.s2, y.s2, z.s2, w.s2, x.s3, y.s3, z.s3, w.s3);
@@ -208,7 +208,7 @@ WIDE_VECTORS static inline void turn(packf x, packf y, packf z, packf w, packf *
 	out[3] = (packf)(x.sc, y.sc, z.sc, w.sc, x.sd, y.sd, z.sd, w.sd, x.se, y.se, z.se, w.se, x.sf, y.sf, z.sf, w.sf);
 }
 
-/* Sixteen records of eight numbers one after the other, from rows of each number. */
+/* Store sixteen records of eight numbers each, from rows of one number each. */
 WIDE_VECTORS static inline void store_records(const packf *row, __global float *to)
 {
 	packf first[4], last[4];
@@ -222,7 +222,7 @@ WIDE_VECTORS static inline void store_records(const packf *row, __global float *
 	}
 }
 
-/* The places and rays of a row. */
+/* Store the places and rays of a row. */
 WIDE_VECTORS static inline void store_row_of_looks(const struct dome_find_arguments *a, uint base,
                                                    const struct looks *l)
 {
@@ -305,26 +305,26 @@ KERNEL_OF(float16) void plain_dome(KERNEL_ARGUMENTS(plain))
 
 /* --- Light ------------------------------------------------------------------------------------------------------- */
 
-/* Columns of a tile and those that its blocks reach, with as many left of it. */
+/* Columns of a tile and those that its blocks reach, with an equal margin on the left. */
 #define LEFT DOME_BLOCK
 #define COLUMNS (DOME_WIDTH + 2 * DOME_BLOCK)
-/* Lit fragments that a pixel may have. */
+/* Maximum number of lit fragments per pixel. */
 #define LAYERS 4
 
-/* A tile's fragments: where strength is 0, there is none. */
+/* A tile's fragments. strength is 0 where there is none. */
 struct field {
 	struct layer {
 		float from[3][CAMERA_TILE][COLUMNS], normal[3][CAMERA_TILE][COLUMNS], strength[CAMERA_TILE][COLUMNS];
 		float sum[4][CAMERA_TILE][COLUMNS];
 		uint item[CAMERA_TILE][COLUMNS];
 	} layer[LAYERS];
-	uint layers[CAMERA_TILE]; /* of each row */
-	uint x, low, bottom, top; /* its first column; its first row; its rows in the rectangle */
-	int first[PACK_SIZE];     /* of each column's block, as a column of this */
-	uint even;                /* 1: all blocks lie the same about their pixels */
+	uint layers[CAMERA_TILE]; /* number of layers of each row */
+	uint x, low, bottom, top; /* its first column; its first row; its rows within the rectangle */
+	int first[PACK_SIZE];     /* first column of each column's block, relative to this field */
+	uint even;                /* 1: all blocks have the same position relative to their pixels */
 };
 
-/* Sixteen pixels of a row of a layer, of which `item` says the fragments. */
+/* Load sixteen pixels of a row of a layer. item: their fragments */
 WIDE_VECTORS static inline void load_sixteen(const struct dome_light_arguments *a, uint row, uint column,
                                              struct layer *to)
 {
@@ -345,7 +345,7 @@ WIDE_VECTORS static inline void load_sixteen(const struct dome_light_arguments *
 	*(pack_loose_floats *)(to->strength[row] + column) = select((packf)(0), place[3], there);
 }
 
-/* The fragments of a pixel that may be lit, a layer each. @return 0: there are too many */
+/* List the fragments of a pixel that may be lit, one per layer. @return 0: there are too many */
 static inline int list_pixel(const struct dome_light_arguments *a, uint begin, uint count, uint row, uint column,
                              struct field *f)
 {
@@ -364,7 +364,7 @@ static inline int list_pixel(const struct dome_light_arguments *a, uint begin, u
 	return 1;
 }
 
-/* Those of a row of pixels. @return 0: there are too many */
+/* List those of a row of pixels. @return 0: there are too many */
 static inline int list_row(const struct dome_light_arguments *a, uint y, struct field *f)
 {
 	const int left = (int)f->x - (int)LEFT;
@@ -380,7 +380,7 @@ static inline int list_row(const struct dome_light_arguments *a, uint y, struct 
 	return few;
 }
 
-/* Those of a row of a plain frame's pixels, which have one at most: sixteen columns of the field. */
+/* List those of a row of a plain frame's pixels, which have at most one: sixteen columns of the field. */
 WIDE_VECTORS static inline void list_plain_row(const struct dome_light_arguments *a, uint y, uint column,
                                                struct field *f)
 {
@@ -423,7 +423,7 @@ static inline int fill_row(const struct dome_light_arguments *a, uint y, struct 
 	return 1;
 }
 
-/* Sixteen numbers of a row, from a column of each lane's block on. */
+/* Sixteen numbers of a row, starting at a column of each lane's block. */
 WIDE_VECTORS static inline packf take(const struct field *f, const float *row, uint column)
 {
 	packf out;
@@ -441,7 +441,7 @@ WIDE_VECTORS static inline struct vec3_16 take_vec(const struct field *f, const 
 	return v3_16(take(f, rows[0][row], column), take(f, rows[1][row], column), take(f, rows[2][row], column));
 }
 
-/* Sixteen numbers of a row of the tile itself. */
+/* Sixteen numbers of the tile's own pixels in a row. */
 WIDE_VECTORS static inline packf own(const float *row)
 {
 	return *(const pack_loose_floats *)(row + LEFT);
@@ -452,7 +452,7 @@ WIDE_VECTORS static inline struct vec3_16 own_vec(const float (*rows)[CAMERA_TIL
 	return v3_16(own(rows[0][row]), own(rows[1][row]), own(rows[2][row]));
 }
 
-/* As dome_add_block for the pixels of a row of a layer. */
+/* dome_add_block for the pixels of a row of a layer. */
 WIDE_VECTORS static inline void add_blocks(const struct field *f, uint row, uint layer, packf *sum)
 {
 	packf alike[4] = { 0, 0, 0, 0 };
@@ -492,7 +492,7 @@ WIDE_VECTORS static inline void add_blocks(const struct field *f, uint row, uint
 		sum[k] = select(sum[k], alike[k], few);
 }
 
-/* Factors of the pixels of a row of a plain frame, to where plain_shadow finds them. */
+/* Store the factors of a row of a plain frame's pixels where plain_shadow reads them. */
 WIDE_VECTORS static inline void store_row(const struct dome_light_arguments *a, const struct field *f, uint row,
                                           const packf *factor)
 {
@@ -502,7 +502,7 @@ WIDE_VECTORS static inline void store_row(const struct dome_light_arguments *a, 
 		*(__global pack_loose_floats *)(a->factors + c * a->n + item) = factor[c];
 }
 
-/* A layer of the pixels of a row. */
+/* Light one layer of a row's pixels. */
 WIDE_VECTORS static inline void light_row(const struct dome_light_arguments *a, const struct field *f, uint row,
                                           uint layer)
 {
@@ -531,7 +531,7 @@ WIDE_VECTORS static inline void light_row(const struct dome_light_arguments *a, 
 	}
 }
 
-/* A row that takes no light. */
+/* A row that receives no light. */
 static inline void leave_row(const struct dome_light_arguments *a, const struct field *f, uint row)
 {
 	const packf none[3] = { 1, 1, 1 };
@@ -540,7 +540,7 @@ static inline void leave_row(const struct dome_light_arguments *a, const struct 
 		store_row(a, f, row, none);
 }
 
-/* A tile with too many fragments in a pixel. */
+/* For a tile with too many fragments in some pixel. */
 static inline void light_one_by_one(const struct dome_light_arguments *a, const struct field *f)
 {
 	for (uint y = f->bottom; y < f->top; y++)

@@ -1,18 +1,18 @@
 /*
- * Light straight from surfaces that shine, in mode path: from each point one ray to one place on one of them, a
- * triangle as often as it sends light, its places evenly. What a scattered ray finds there by itself counts as well.
- * Each of the two has the weight of the power heuristic (E. Veach and L. Guibas, "Optimally Combining Sampling
- * Techniques for Monte Carlo Rendering", 1995, sec. 4).
+ * Direct light from emissive surfaces, in mode path. Each point sends one ray to one place on one emissive triangle,
+ * chosen in proportion to the light it sends, with places uniform in area. Light that a scattered ray finds there also
+ * counts. Both are weighted by the power heuristic (E. Veach and L. Guibas, "Optimally Combining Sampling Techniques
+ * for Monte Carlo Rendering", 1995, sec. 4).
  *
- * Only matte, lit surfaces without holes are asked for (emitter_strength). Light of all others, and of skies, is what
- * rays find: their weight is 1.
+ * Only matte, lit surfaces without holes are sampled this way (emitter_strength). Light of all other surfaces, and of
+ * skies, is found by scattered rays alone, with weight 1.
  */
 #pragma once
 
 #include "kernels/frame/shadow.h"
 
-/* How bright a material is; the share of its triangles' area by which they are asked. attributes: of the geometry. 0:
- * never asked */
+/* A material's brightness, which times area gives the probability of sampling a triangle. attributes: those of the
+ * geometry. 0: never sampled */
 static inline float emitter_strength(uint32_t transport, GLOBAL const struct scene_material *m, uint32_t attributes)
 {
 	const struct vec3 by_rule = stage_light(transport, v3_load(m->surface.emission));
@@ -29,7 +29,7 @@ static inline float emitter_strength(uint32_t transport, GLOBAL const struct sce
 	return most;
 }
 
-/* What a point of such a surface sends. */
+/* Light that a point of such a surface sends. */
 static inline struct vec3 emitter_sends(const struct tables *t, const struct point *p, uint32_t transport)
 {
 	const struct vec3 by_rule = stage_light(transport, v3_load(p->material->surface.emission));
@@ -41,7 +41,7 @@ static inline struct vec3 emitter_sends(const struct tables *t, const struct poi
 		stage_light(transport, v3_load(tables_face(t, p->geometry, p->number[2], point_side(p))->emission)));
 }
 
-/* The emitter at u of the list, the place at (what is left of u, v) on it, seen along `from`'s end: as a hit. */
+/* Choose an emitter by u, and the place on it by (the rest of u, v), seen from the end of `from`; returned as a hit. */
 static inline struct hit emitter_choose(const struct emission *e, float u, float v)
 {
 	uint32_t low = e->emitter_first, high = e->emitter_first + e->n_emitters - 1u;
@@ -66,13 +66,13 @@ static inline struct hit emitter_choose(const struct emission *e, float u, float
 	return hit;
 }
 
-/* How densely the directions to a point that is asked for lie. distance, cosine: to it, and there */
+/* Density of the sampled directions towards a point. distance: to the point; cosine: at the point */
 static inline float emitter_density(const struct emission *e, float strength, float distance2, float cosine)
 {
 	return strength / e->emitted * distance2 / M_MAX(M_ABS(cosine), 1e-6f);
 }
 
-/* Of two ways to the same place, the weight of the one whose density comes first. */
+/* Power heuristic: weight of the first of two ways to reach the same place, by their densities. */
 static inline float emitter_weight(float density, float other)
 {
 	const float share = other / density;
@@ -80,12 +80,12 @@ static inline float emitter_weight(float density, float other)
 	return 1.0f / (1.0f + share * share);
 }
 
-/* Which numbers the place is chosen by (sample_take). */
+/* Sample numbers for choosing the place (sample_take). */
 struct emitter_sample {
 	uint32_t frame, seed, index;
 };
 
-/* The ray from a point to the place; t = 1 would be the place. from: the direction of the ray that led to the point */
+/* The ray from a point to the place, which would be at t = 1. from: the direction of the ray that led to the point */
 static inline void emitter_ray(const struct tables *t, const struct emission *e, const struct point *p,
                                struct vec3 from, const struct emitter_sample *at, GLOBAL struct ray *ray)
 {
@@ -106,7 +106,7 @@ static inline void emitter_ray(const struct tables *t, const struct emission *e,
 	ray->t_max = 0.9995f;
 }
 
-/* What comes from there, as a matte white point shows it, where nothing stops it. */
+/* Unoccluded light from the emitter, as reflected by a matte white point. */
 static inline struct vec3 emitter_light(const struct tables *t, const struct emission *e, uint32_t transport,
                                         const struct point *p, struct vec3 from, const struct emitter_sample *at)
 {
@@ -125,14 +125,14 @@ static inline struct vec3 emitter_light(const struct tables *t, const struct emi
 	cosine = v3_dot(point_normal(p), d);
 	if (!(cosine > 0.0f) || !(v3_dot(plane, d) > 0.0f) || !(distance2 > 0.0f))
 		return v3(0.0f, 0.0f, 0.0f);
-	q = point_from_hit(t, &hit, d); /* the side that is seen from here */
+	q = point_from_hit(t, &hit, d); /* the side that is visible from here */
 	density = emitter_density(e, emitter_strength(transport, q.material, q.geometry->attributes), distance2,
 	                          v3_dot(point_plane_normal(&q), d));
 	scattered = cosine * 0.31830988618f;
 	return v3_scale(emitter_sends(t, &q, transport), scattered / density * emitter_weight(density, scattered));
 }
 
-/* leave_ray: from the fragments of the list. */
+/* leave_ray: for the fragments of the list. */
 static inline void leave_ray_item(const struct leave_ray_arguments *a, uint32_t item)
 {
 	const struct emitter_sample at = { a->frame, sample_hash(a->pixels[item]), a->sample };
@@ -150,7 +150,7 @@ static inline void leave_ray_item(const struct leave_ray_arguments *a, uint32_t 
 		            &at, &a->rays[item]);
 }
 
-/* bounce_ray: from what paths hit, where they may go on. */
+/* bounce_ray: for hits of paths that may continue. */
 static inline void bounce_ray_item(const struct bounce_ray_arguments *a, uint32_t item)
 {
 	const struct emitter_sample at = { a->frame, stage_seed(&a->paths[item], a->pixels, 0u), a->sample };

@@ -1,5 +1,5 @@
-/* Kernels that call a user's functions: see kernels/frame/hook.h and hook_object.h. The user's text stands behind this
- * one. */
+/* Kernels that call a user's functions: see kernels/frame/hook.h and hook_object.h. The user's text is appended to this
+ * file. */
 #include "kernels/frame/hook.h"
 #include "kernels/frame/hook_object.h"
 

@@ -1,20 +1,20 @@
 /*
- * Where a user's functions are called (tracer/hook/hook.h reads them, corpus/hooks/README.md is for who writes them).
- * Each takes plain structs and says what is to become of a ray; kernels do it. Nothing here is compiled unless a hook
- * is there.
+ * Calls of a user's hook functions (tracer/hook/hook.h reads them; corpus/hooks/README.md is for their authors). Each
+ * function takes plain structs and says what becomes of a ray; kernels carry it out. Nothing here is compiled unless
+ * there is a hook.
  *
- *   hook_ray        ray generation: a pixel's first ray, in place of the camera's
- *   hook_see        what these rays hit first, for channels Z, N, P and id
- *   hook_store      what they found, into the frame
- *   hook_shade      any hit and closest hit, of fragments: after they were lit, before their rays leave
- *   hook_ways       the ways on that hook_shade was told, in place of a fragment's own
- *   hook_hit        any hit, closest hit and miss, of paths: after shade_hit
- *   hook_walk       any hit, of rays to lights: after shadow_walk
- *   hook_light      light, of fragments: after their rays to lights
- *   hook_light_hit  the same, of hits
+ *   hook_ray        ray generation: a pixel's first ray, replacing the camera's
+ *   hook_see        first hits of these rays, for channels Z, N, P and id
+ *   hook_store      stores what they found in the frame
+ *   hook_shade      any hit and closest hit, for fragments: after they were lit, before their rays leave
+ *   hook_ways       the rays that hook_shade's hook asked for, replacing a fragment's own
+ *   hook_hit        any hit, closest hit and miss, for paths: after shade_hit
+ *   hook_walk       any hit, for rays to lights: after shadow_walk
+ *   hook_light      light, for fragments: after their rays to lights
+ *   hook_light_hit  the same, for hits
  *
- * The built-in's colour is what the kernels before have left: a hook that gives it back changes no bit. The twins have
- * no hook, so they are what kernels do where a hook always goes on.
+ * The built-in colour is what the preceding kernels computed, and a hook that returns it unchanged changes no bit. The
+ * twins have no hook, so they do what kernels do if a hook always returns the built-in result.
  */
 #pragma once
 
@@ -37,12 +37,12 @@ static inline struct vec3 hook_color(const struct hook_answer *a)
 	return v3(a->color[0], a->color[1], a->color[2]);
 }
 
-/* How a ray came to where a hook is asked. */
+/* The ray that a hook is asked about. */
 struct hook_way {
 	struct vec3 origin, direction; /* unit length */
 	float distance;
-	uint32_t depth, shadow; /* shadow: 1: it goes to a light */
-	struct vec3 color; /* the built-in's */
+	uint32_t depth, shadow; /* shadow: 1 for a ray to a light */
+	struct vec3 color; /* the built-in colour */
 };
 
 #ifdef __OPENCL_VERSION__
@@ -64,7 +64,7 @@ static inline struct relume_hit hook_hit_of(const struct hook_place *at, const s
 }
 #endif
 
-/* 1 where a surface is none for a ray. */
+/* 1 if a ray ignores a surface. */
 static inline int hook_ignores(const struct hook_place *at, const struct hook_way *way, GLOBAL const float *row)
 {
 #if defined(__OPENCL_VERSION__) && defined(HOOK_ANY_HIT)
@@ -109,8 +109,8 @@ static inline struct hook_answer hook_ask_miss(const struct hook_way *way, GLOBA
 
 /* --- Ray generation ---------------------------------------------------------------------------------------------- */
 
-/* The program's own ray through a pixel, as its view is moved by this pass, becomes the hook's. @return 0: there is
- * none */
+/* Replace the program's own ray through a pixel, moved as the view is in this pass, by the hook's. @return 0: there is
+ * no ray */
 static inline int hook_first_ray(const struct hook_ray_arguments *a, uint32_t number, struct vec3 *o, struct vec3 *d)
 {
 	GLOBAL const struct view *view = &a->views[a->view_index];
@@ -209,13 +209,13 @@ static inline int hook_differs(struct vec3 a, struct vec3 b)
 	return a.x != b.x || a.y != b.y || a.z != b.z;
 }
 
-/* A row of parameters: of a material. */
+/* The row of parameters of a material. */
 static inline GLOBAL const float *hook_row(GLOBAL const float *parameters, uint32_t words, const struct point *p)
 {
 	return parameters + (size_t)p->geometry->material * words;
 }
 
-/* Any hit, then closest hit. in_part: 1: the surface is one that only any hit is asked about */
+/* Any hit, then closest hit. in_part: 1: only any hit is called for this surface */
 static inline struct hook_answer hook_ask(const struct hook_place *at, const struct hook_way *way,
                                           GLOBAL const float *row, int in_part)
 {
@@ -284,7 +284,7 @@ static inline void hook_ways_item(const struct hook_ways_arguments *a, uint32_t 
 	a->counts[item] = b.count;
 }
 
-/* What is left of the built-in's light per unit of a surface's own colour. */
+/* The rest of the built-in light, per unit of a surface's own colour. */
 static inline struct vec3 hook_share(const struct hook_hit_arguments *a, uint32_t item, const struct point *p,
                                      struct vec3 weight)
 {
@@ -320,7 +320,7 @@ static inline void hook_miss_path(const struct hook_hit_arguments *a, uint32_t i
 		v3_store(a->radiance + item * 3u, v3_mul(weight, hook_color(&answer)));
 }
 
-/* What a hook said of a hit becomes the path's light and its ways on. */
+/* Apply a hook's answer for a hit to the path's light and its next rays. */
 static inline void hook_obey(const struct hook_hit_arguments *a, uint32_t item, const struct point *p,
                              const struct hook_answer *answer, struct vec3 weight)
 {
@@ -375,7 +375,7 @@ static inline void hook_hit_item(const struct hook_hit_arguments *a, uint32_t it
 		v3_store(a->radiance + item * 3u, v3_mul(share, hook_color(&answer)));
 }
 
-/* A ray to a light goes on behind what is no surface for it, whatever shadow_walk made of that. */
+/* Continue a ray to a light behind a surface that the hook ignores, whatever shadow_walk did there. */
 static inline void hook_walk_item(const struct hook_walk_arguments *a, uint32_t item)
 {
 	const struct hit hit = a->hits[item];
@@ -403,7 +403,10 @@ static inline void hook_walk_item(const struct hook_walk_arguments *a, uint32_t 
 
 /* --- Light ------------------------------------------------------------------------------------------------------- */
 
-/* What of a light arrives at a point, by the hook's factor. number: of the light among the point's */
+/*
+ * Scale the light of one light source that arrives at a point by the hook's factor. number: the light's index among the
+ * point's
+ */
 static inline void hook_dim(const struct tables *t, const struct point *p, uint32_t number, uint32_t transport,
                             GLOBAL const float *row, GLOBAL float *visibility)
 {
@@ -437,7 +440,7 @@ static inline void hook_dim(const struct tables *t, const struct point *p, uint3
 #endif
 }
 
-/* Whether a ray to a light was sent, and some of it arrived. */
+/* Test whether a ray to a light was sent and some of the light arrived. */
 static inline int hook_is_lit(GLOBAL const struct ray *ray, GLOBAL const float *visibility)
 {
 	return ray->t_min <= ray->t_max && v3_most(v3_load(visibility)) > 0.0f;

@@ -1,13 +1,13 @@
 /*
- * Shapes that a user's hook tells by its functions bounds and intersection (corpus/hooks/README.md), in place of
+ * Shapes that a user's hook defines by its functions bounds and intersection (corpus/hooks/README.md), replacing
  * instances' triangles.
  *
- *   hook_bounds     bounds of what intersection is asked about
+ *   hook_bounds     bounds: the boxes in which intersection is called
  *   hook_intersect  intersection: after the nearest triangle was found
- *   hook_occlude    the same, where any hit will do
+ *   hook_occlude    the same for any hit
  *
- * A small triangle stands for each place that a ray hit, with three vertices of its own: what shades hits knows nothing
- * else. Its slot is the ray's (tracer/frame/hook_objects.h). A ray asks all objects of its space, one after the other.
+ * Code that shades hits only knows triangles, so a small triangle with three vertices of its own represents each hit on
+ * a shape. Its slot is that of the ray (tracer/frame/hook_objects.h). A ray tests all objects of its space in turn.
  */
 #pragma once
 
@@ -28,14 +28,14 @@ static inline void hook_bounds_item(const struct hook_bounds_arguments *a, uint3
 #endif
 }
 
-/* What a ray meets of an object, between the ray's start and `end`. */
+/* A ray's hit on an object, between the ray's start and `end`. */
 struct hook_found {
 	float t;
 	struct vec3 normal;      /* object space */
-	struct vec4 coordinates; /* of textures */
+	struct vec4 coordinates; /* texture coordinates */
 };
 
-/* @return 1: it meets it */
+/* @return 1: the ray meets the object */
 static inline int hook_try(GLOBAL const struct hook_object *object, GLOBAL const struct ray *ray, float end,
                            GLOBAL const float *row, struct hook_found *found)
 {
@@ -71,8 +71,8 @@ static inline int hook_try(GLOBAL const struct hook_object *object, GLOBAL const
 }
 
 /*
- * A vertex of the triangle that stands for a place of a surface. As vertex_item makes them, but that texture
- * coordinates are the hook's where OpenGL does not make them.
+ * A vertex of the triangle that represents a hit on a surface. As in vertex_item, except that texture coordinates come
+ * from the hook unless OpenGL generates them.
  */
 static inline void hook_vertex(const struct hook_intersect_arguments *a, uint32_t number, uint32_t instance,
                                struct vec3 at, struct vec3 normal, struct vec3 in_object, struct vec4 coordinates)
@@ -86,7 +86,7 @@ static inline void hook_vertex(const struct hook_intersect_arguments *a, uint32_
 	v4_store(out->eye, eye);
 	v4_store(out->clip, m4_mul(a->views[g->view].projection, eye));
 	v3_store(out->normal, normal);
-	a->windows[g->vertex_first + number].w_inv = 0.0f; /* no place: point_shows_front goes by clip space */
+	a->windows[g->vertex_first + number].w_inv = 0.0f; /* no window position: point_shows_front then uses clip space */
 	vertex_store_colors(t, g, m, number, out);
 	out->fog_coord = vertex_fog_distance(m->fog_coord_source, eye);
 	out->size[0] = out->size[1] = 0.0f;
@@ -96,10 +96,10 @@ static inline void hook_vertex(const struct hook_intersect_arguments *a, uint32_
 		                          v4(in_object.x, in_object.y, in_object.z, 1.0f), eye, normal));
 }
 
-/* The size of the triangle that stands for a place, as a share of its largest coordinate. */
+/* Size of the triangle that represents a hit, as a share of its largest coordinate. */
 #define HOOK_TRIANGLE 0.00390625f
 
-/* A small triangle about the place, in the slot of the ray; the hit is its middle. */
+/* Put a small triangle around the hit into the ray's slot; the hit is its centre. */
 static inline void hook_place_triangle(const struct hook_intersect_arguments *a, uint32_t item,
                                        GLOBAL const struct hook_object *object, const struct hook_found *found)
 {

@@ -1,29 +1,29 @@
 /*
- * What a user's hook is compiled with: structs, requests, and what its functions may call (corpus/hooks/README.md).
- * Nothing here is compiled unless a hook is there, but for what the C twins need.
+ * Text that is compiled with a user's hook: structs, requests, and functions that it may call (corpus/hooks/README.md).
+ * Except for what the C twins need, nothing here is compiled unless there is a hook.
  */
 #pragma once
 
 #include "kernels/frame/path.h"
 
-/* What a hook asks for: bits of hook_answer.what. The same numbers in the text below. */
+/* A hook's requests: bits of hook_answer.what. The same numbers are in the text below. */
 #define RELUME_COLOR 1u
 #define RELUME_RAY 2u
 #define RELUME_IGNORE 4u
 #define RELUME_SURFACE 8u
 
-/* What functions that a hook may call look at. */
+/* Context for functions that a hook may call. */
 struct hook_place {
 	const struct tables *tables;
 	const struct point *point;
 	GLOBAL const float *visibility;
 	uint32_t n_slots, n, item, transport;
-	const struct hook_trees *trees; /* NULL: hooks ask nothing of them here */
+	const struct hook_trees *trees; /* NULL: hooks cannot query the trees here */
 };
 
 /* --- Boxes ------------------------------------------------------------------------------------------------------- */
 
-/* Whether a ray meets a box between two places on it. */
+/* Test whether a ray meets a box between two distances. */
 static inline int hook_meets(GLOBAL const float *lower, GLOBAL const float *upper, struct vec3 o, struct vec3 d,
                              float *least, float *most)
 {
@@ -36,7 +36,7 @@ static inline int hook_meets(GLOBAL const float *lower, GLOBAL const float *uppe
 		*least = M_MAX(*least, M_MIN(a, b));
 		*most = M_MIN(*most, M_MAX(a, b));
 	}
-	return lower[0] <= upper[0] && *least <= *most + 1.0e-5f * M_ABS(*most); /* a little more, for rounding */
+	return lower[0] <= upper[0] && *least <= *most + 1.0e-5f * M_ABS(*most); /* with some slack for rounding */
 }
 
 static inline struct vec3 hook_turn(GLOBAL const float *m, struct vec3 v)
@@ -50,11 +50,13 @@ static inline struct vec3 hook_move(GLOBAL const float *m, struct vec3 v)
 	return v3_add(hook_turn(m, v), v3(m[3], m[7], m[11]));
 }
 
-/* Subtrees still to be walked: of the top level, and of the meshes in its leaves. What does not fit is not counted. */
+/*
+ * Subtrees still to be visited: of the top level, and of the meshes in its leaves. Those that do not fit are not
+ * counted.
+ */
 #define HOOK_STACK 192u
 
-/* Boxes of the binary trees that a ray asks, up to a distance: two a node, those of the space and those of its
- * meshes. */
+/* Number of box tests of a ray in the binary trees, up to a distance: two per node, in the top level and in meshes. */
 static inline uint32_t hook_box_tests(const struct hook_trees *a, struct vec3 from, struct vec3 along, float distance)
 {
 	uint32_t instance[HOOK_STACK], node[HOOK_STACK], depth = 1u, tests = 0u, inside = SCENE_NONE;
@@ -267,7 +269,7 @@ static inline struct relume_light relume_light(const struct relume_hit *hit, uin
 	return out;
 }
 
-/* The user's, behind all of this. */
+/* The user's functions come after all of this. */
 #ifdef HOOK_RAY_GENERATION
 struct relume_ray ray_generation(struct relume_pixel pixel, struct relume_parameters parameters);
 #endif

@@ -1,43 +1,44 @@
 /*
- * Fragments of a row of sixteen pixels, layer by layer (kernels/frame/layered.cl): how they are loaded, tested, and
- * drawn over each other. OpenCL C only.
+ * Fragments of a row of sixteen pixels, layer by layer (kernels/frame/layered.cl): how they are loaded, tested and
+ * blended. OpenCL C only.
  */
 #pragma once
 
 #include "kernels/frame/pack_blend.h"
 #include "kernels/frame/plain_row.h"
 
-/* One fragment of each pixel. Lanes a bit each. */
+/* One fragment of each pixel. Masks have one bit per lane. */
 struct layer {
 	struct plain_row at;
-	struct plain_colors colors;   /* of those that are shaded */
-	packf mirrored[3], beauty[3]; /* the same, of PLAIN_MIRROR */
+	struct plain_colors colors;   /* colours of the shaded fragments */
+	packf mirrored[3], beauty[3]; /* the same, in step PLAIN_MIRROR */
 	packf depth;
-	struct pack pack; /* of those in `placed`, of one material */
-	uint there, placed, drawn, shaded, covered; /* drawn: all tests passed; covered: by a later one */
-	uint leaves;        /* light leaves these */
-	uint look;          /* that found its fragments */
-	uint from, slots;   /* of the first pixel's fragment in a->sparse; how far the next one's is from it */
-	int asks, follows;  /* its fragments may send rays to lights; paths */
+	struct pack pack; /* the fragments in `placed`, all of one material */
+	uint there, placed, drawn, shaded, covered; /* drawn: passed all tests; covered: hidden by a later one */
+	uint leaves;        /* fragments with paths */
+	uint look;          /* the look that found these fragments */
+	uint from, slots;   /* index of the first pixel's fragment in a->sparse; distance to the next pixel's */
+	int asks, follows;  /* 1: fragments may send rays to lights; may send paths */
 };
 
-/* A row of sixteen pixels on its way. */
+/* State of a row of sixteen pixels. */
 struct layered_row {
 	struct layer layers[PLAIN_LAYERS];
 	struct pack_pixels pixels;
-	packu depth;         /* as the depth buffer has it */
+	packu depth;         /* in the depth buffer's format */
 	uint step;           /* PLAIN_* */
-	packu last, surface; /* the layers of the last fragment that was drawn, and of the one whose surface shows;
-	                        SCENE_NONE: there is none */
+	packu last, surface; /* layer of the last fragment drawn, and of the one whose surface is visible; SCENE_NONE:
+                          * none */
 	uint n;
-	uint unknown;    /* a bit for each pixel whose colours from before the frame are not known, and show */
-	int is_mirrored; /* mirrored and beauty are not what direct is */
-	int at_once;     /* layers are shaded and drawn as they are tested: nothing of the row before was covered */
+	uint unknown;    /* a bit for each pixel that shows colours from before the frame which are not known */
+	int is_mirrored; /* 1: mirrored and beauty differ from direct */
+	int at_once;     /* 1: layers are shaded and drawn as they are tested, since nothing in the previous row was
+                      * covered */
 };
 
 /* --- Loading ----------------------------------------------------------------------------------------------------- */
 
-/* How many fragments each pixel of a row has in a look. */
+/* Number of fragments of each pixel of a row in a look. */
 static inline packu load_counts(const struct plain_arguments *a, uint look, uint x, uint y)
 {
 	__global const uint *counts = a->layers.counts +
@@ -61,10 +62,10 @@ static inline uint most_of(packu n)
 	return most;
 }
 
-/* Where the layers of a block lie. */
+/* Index range of a block's layers. */
 struct layered_block {
 	uint x, y; /* its first pixel */
-	uint place, most[PLAIN_LOOKS], n; /* of its first layer; how many a look has; all of them */
+	uint place, most[PLAIN_LOOKS], n; /* index of its first layer; number of layers per look; their sum */
 };
 
 static inline void load_block(const struct plain_arguments *a, uint item, struct layered_block *b)
@@ -82,7 +83,7 @@ static inline void load_block(const struct plain_arguments *a, uint item, struct
 	}
 }
 
-/* Fragments of a layer, from records to rows. Lanes beyond the picture's row repeat its last pixel. */
+/* Transpose the fragments of a layer from records to rows. Lanes beyond the picture's row repeat its last pixel. */
 WIDE_VECTORS static inline void load_layer(const struct plain_arguments *a, struct layer *layer)
 {
 	__global const float *words = (__global const float *)(a->sparse + layer->from);
@@ -101,7 +102,7 @@ WIDE_VECTORS static inline void load_layer(const struct plain_arguments *a, stru
 	*(pack_loose_floats *)list->depth = last[3];
 }
 
-/* The layers of a row. row: with its step. @return whether this step changes any */
+/* Load the layers of a row. row: with its step set. @return 1 if this step changes any of them */
 static inline uint load_layers(const struct plain_arguments *a, const struct layered_block *b, uint y,
                                struct layered_row *row)
 {
@@ -135,7 +136,7 @@ static inline uint load_layers(const struct plain_arguments *a, const struct lay
 	return changed;
 }
 
-/* Where the rays of a block's row lie, there are none so far, and no light leaves it. */
+/* Initialise a block's row: no rays to lights yet, and no light leaves it. */
 static inline void send_none(const struct plain_arguments *a, const struct layered_block *b, uint y)
 {
 	for (uint i = 0; i < b->n && a->layers.mirrors; i++)
@@ -145,7 +146,7 @@ static inline void send_none(const struct plain_arguments *a, const struct layer
 			stage_no_ray(&a->rays[i / b->n * a->n + plain_base(b->place + i % b->n, y) + lane]);
 }
 
-/* All pixels as they were cleared. */
+/* Set all pixels to the clear values. */
 WIDE_VECTORS static inline void clear_pixels(__global const struct frame_pixel *cleared, struct layered_row *row)
 {
 	struct pack_pixels *p = &row->pixels;
@@ -164,13 +165,13 @@ WIDE_VECTORS static inline void clear_pixels(__global const struct frame_pixel *
 	row->depth = cleared->depth;
 }
 
-/* What is kept of a row's pixels from round to round. */
+/* Values kept for a row's pixels from round to round. */
 struct layered_kept_row {
 	struct pack_pixels pixels;
-	packu depth, shows; /* shows: 1 where a surface does, and 2 where colours from before do that are not known */
+	packu depth, shows; /* shows: 1 if a surface is visible, plus 2 if unknown colours from before are */
 };
 
-#define KEPT_PACKS (sizeof(struct layered_kept_row) / sizeof(packf)) /* PLAIN_KEPT, that is */
+#define KEPT_PACKS (sizeof(struct layered_kept_row) / sizeof(packf)) /* this equals PLAIN_KEPT */
 
 WIDE_VECTORS static inline void load_kept(__global const float *from, struct layered_kept_row *row)
 {
@@ -191,7 +192,7 @@ WIDE_VECTORS static inline void begin_pixels(const struct plain_arguments *a, ui
 	load_kept(a->layers.before + plain_kept(a->width, x, y), &before);
 	row->pixels = before.pixels;
 	row->depth = before.depth;
-	row->surface -= before.shows & 1; /* no layer of this round */
+	row->surface -= before.shows & 1; /* not a layer of this round */
 	row->unknown = pack_bits((before.shows & 2) != 0);
 }
 
@@ -215,8 +216,8 @@ WIDE_VECTORS static inline void keep_pixels(const struct plain_arguments *a, uin
 
 /* --- Clears ------------------------------------------------------------------------------------------------------ */
 
-/* Clears of depth before a look, from number `next` on. x, y: of the row. @return the number of the first that is
- * left */
+/* Apply the depth clears before a look, starting with number `next`. x, y: position of the row. @return the number of
+ * the first clear that remains */
 WIDE_VECTORS static inline uint clear_before(const struct plain_arguments *a, uint look, uint next, uint x, uint y,
                                              struct layered_row *row)
 {
@@ -234,8 +235,8 @@ WIDE_VECTORS static inline uint clear_before(const struct plain_arguments *a, ui
 
 /* --- Tests ------------------------------------------------------------------------------------------------------- */
 
-/* As pixel_tests and pixel_mark: fragments of layer i, of one material, whose depths are known, and colours where it
- * tests alpha. */
+/* pixel_tests and pixel_mark for fragments of layer i, of one material. Their depths are known, and so are their
+ * colours if the material tests alpha. */
 WIDE_VECTORS static inline void test_lanes(const struct plain_arguments *a, struct layered_row *row, uint i,
                                            __global const struct scene_material *m, uint lanes)
 {
@@ -268,7 +269,7 @@ WIDE_VECTORS static inline void test_lanes(const struct plain_arguments *a, stru
 
 /* --- Drawing ----------------------------------------------------------------------------------------------------- */
 
-/* One channel of a part of the colours over the same part of the pixels. */
+/* Blend one channel of a part of the colours over the same part of the pixels. */
 WIDE_VECTORS static inline void draw_channel(__global const struct scene_material *m, int channel, packf source,
                                              packu s_alpha, packu d_alpha, int opaque, packi lanes, packf *to)
 {
@@ -277,7 +278,7 @@ WIDE_VECTORS static inline void draw_channel(__global const struct scene_materia
 		         lanes);
 }
 
-/* Whether a channel of some lanes is the same in all parts of the pixels, and of the fragments. */
+/* Test whether, in some lanes, a channel is the same in all parts of the pixels and of the fragments. */
 WIDE_VECTORS static inline int is_same(const struct layer *layer, const struct pack_pixels *p, int i, int is_mirrored,
                                        packi lanes)
 {
@@ -292,7 +293,7 @@ WIDE_VECTORS static inline int is_same(const struct layer *layer, const struct p
 	return !any_pack((differ != 0) & lanes);
 }
 
-/* As pixel_colors, for fragments of one material. is_mirrored: as of struct layered_row */
+/* pixel_colors for fragments of one material. is_mirrored: as in struct layered_row */
 WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __global const struct scene_material *m,
                                            const struct layer *layer, int is_mirrored, packi lanes,
                                            struct pack_pixels *p)
@@ -328,7 +329,7 @@ WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __gl
 	draw_channel(m, 3, c->gl.w, s_alpha, d_alpha, 0, lanes, &p->gl[3]);
 }
 
-/* As pixel_replaces. */
+/* pixel_replaces for all lanes. */
 WIDE_VECTORS static inline packi replaces(__global const struct scene_material *m, const struct plain_colors *c)
 {
 	const packu alpha = blend_round(c->gl.w);

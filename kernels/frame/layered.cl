@@ -1,14 +1,15 @@
 /*
  * layered, layered_shadow, layered_mirror, layered_start, layered_picture: see kernels/frame/plain.h. All fragments of
- * a row of sixteen pixels go through the per-fragment operations in draw order, layer by layer: the first of each
- * pixel, the second of each, and so on. Depth tests come before colours, and colours are found from the last layer to
- * the first: a fragment that fails, or that a later one covers whole, is not shaded, and sends no rays. Rows that light
- * leaves are composed by layered_mirror alone. Where none of the row before was covered, layers are drawn as they are
- * tested.
+ * a row of sixteen pixels go through the per-fragment operations in draw order, layer by layer: the first fragment of
+ * each pixel, then the second of each, and so on.
+ *
+ * Depth tests come before colours, and colours are computed from the last layer to the first, so a fragment that fails
+ * or that a later one covers completely is not shaded and sends no rays. Rows with fragments that light leaves are
+ * composed by layered_mirror alone. If nothing in the previous row was covered, layers are drawn as they are tested.
  */
 #include "kernels/frame/layer.h"
 
-/* What is kept from one fragment to the next. */
+/* Kept from one fragment to the next. */
 struct layered_kept {
 	struct pack_encoded encoded;
 	struct pack_kept pack;
@@ -18,7 +19,7 @@ struct layered_kept {
 
 /* --- Colours ----------------------------------------------------------------------------------------------------- */
 
-/* What shows of fragments of layer i that kept->last has placed beside their colours. */
+/* Surface data, apart from colours, of the fragments of layer i that kept->last has placed. */
 static inline void put_layer_surface(const struct plain_arguments *a, struct layered_row *row, uint i, uint lanes,
                                      const struct pack_surface *s, const struct pack_kept *kept)
 {
@@ -31,7 +32,7 @@ static inline void put_layer_surface(const struct plain_arguments *a, struct lay
 		pack_put_surface(&a->tables, &kept->last, s, shows, &row->pixels);
 }
 
-/* Places of fragments of one material, into kept->last. @return those that are done */
+/* Place fragments of one material, in kept->last. @return the lanes that are done */
 static inline uint place_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct layer *layer,
                                uint lanes, struct pack_kept *kept)
 {
@@ -58,13 +59,13 @@ WIDE_VECTORS static inline void keep_colors(const struct plain_colors *from, pac
 
 /* --- Light that leaves ------------------------------------------------------------------------------------------- */
 
-/* Where a fragment that light leaves stands in the list. */
+/* Index in the list of a fragment that light leaves. */
 static inline uint place_in_list(const struct plain_arguments *a, const struct layer *layer, uint lane)
 {
 	return a->layers.list_first[layer->at.base / PACK_SIZE] + popcount(layer->leaves & ((1u << lane) - 1));
 }
 
-/* A fragment that light leaves, into the list; f, direct: as it is shaded. */
+/* Add a fragment that light leaves to the list. f, direct: as it was shaded. */
 static inline void list_one(const struct plain_arguments *a, const struct layer *layer, uint lane, struct fragment f,
                             struct vec3 direct)
 {
@@ -77,7 +78,7 @@ static inline void list_one(const struct plain_arguments *a, const struct layer 
 	to->flags = SHADED_THERE;
 }
 
-/* What its paths found. */
+/* Take the light that its paths found. */
 static inline void take_one(const struct plain_arguments *a, struct layer *layer, uint lane)
 {
 	__global const struct shaded *from = &a->layers.list_shaded[place_in_list(a, layer, lane)];
@@ -88,7 +89,7 @@ static inline void take_one(const struct plain_arguments *a, struct layer *layer
 	}
 }
 
-/* Either, for fragments that kept->last has placed and that have their colours. */
+/* Either of these, for fragments that kept->last has placed and that have their colours. */
 static inline void follow_lanes(const struct plain_arguments *a, const struct layered_row *row, struct layer *layer,
                                 uint lanes, const struct pack *p)
 {
@@ -118,7 +119,7 @@ static inline void follow_lanes(const struct plain_arguments *a, const struct la
 	}
 }
 
-/* Which fragments of a row light leaves: those that show. @return whether any */
+/* Find the fragments of a row that light leaves: those that are visible. @return 1 if there are any */
 static inline uint find_leaves(const struct plain_arguments *a, struct layered_row *row)
 {
 	uint all = 0;
@@ -143,7 +144,10 @@ static inline uint find_leaves(const struct plain_arguments *a, struct layered_r
 
 /* --- Fragments --------------------------------------------------------------------------------------------------- */
 
-/* Colours of fragments of one material in layer i. tests: they have not been tested yet. @return those that are done */
+/*
+ * Colours of fragments of one material in layer i. tests: 1: they have not been tested yet. @return the lanes that are
+ * done
+ */
 static inline uint shade_layer_lanes(const struct plain_arguments *a, const struct shade_arguments *s,
                                      struct layered_row *row, uint i, uint lanes, int tests, struct pack_kept *kept)
 {
@@ -179,7 +183,7 @@ static inline uint shade_layer_lanes(const struct plain_arguments *a, const stru
 	return lanes;
 }
 
-/* A fragment that packs do not know, all that is to be done of it. */
+/* Complete processing of a fragment that packs cannot handle. */
 static inline void shade_layer_alone(const struct plain_arguments *a, const struct shade_arguments *s,
                                      struct layered_row *row, uint i, uint lane, struct layered_kept *kept)
 {
@@ -223,7 +227,7 @@ static inline void shade_layer_alone(const struct plain_arguments *a, const stru
 
 /* --- Rows -------------------------------------------------------------------------------------------------------- */
 
-/* Tests of layer i. Where the outcome needs colours, or nothing can cover them, fragments are shaded at once. */
+/* Test layer i. If the result depends on colours, or nothing can cover the fragments, they are shaded at once. */
 static inline void test_layer(const struct plain_arguments *a, const struct shade_arguments *s, struct layered_row *row,
                               uint i, struct layered_kept *kept)
 {
@@ -258,7 +262,10 @@ static inline void test_layer(const struct plain_arguments *a, const struct shad
 	}
 }
 
-/* Colours of layer i, where they can be seen. covered: by later layers. @return with what this one covers */
+/*
+ * Shade layer i where it is visible. covered: lanes covered by later layers. @return these, plus the lanes that this
+ * layer covers
+ */
 static inline uint shade_layer(const struct plain_arguments *a, const struct shade_arguments *s,
                                struct layered_row *row, uint i, uint covered, struct layered_kept *kept)
 {
@@ -283,13 +290,13 @@ static inline uint shade_layer(const struct plain_arguments *a, const struct sha
 	return covered | covers;
 }
 
-/* Which lanes of a row of sixteen pixels lie within the picture. */
+/* The lanes of a row of sixteen pixels that lie within the picture. */
 static inline uint lanes_there(uint x, uint width)
 {
 	return width - x < PLAIN_WIDTH ? (1u << (width - x)) - 1 : 0xffffu;
 }
 
-/* Which draws pixels show. */
+/* Draw numbers of the visible surfaces. */
 static inline void put_draws(const struct plain_arguments *a, struct layered_row *row)
 {
 	const packi drawn = row->last != SCENE_NONE;
@@ -303,8 +310,8 @@ static inline void put_draws(const struct plain_arguments *a, struct layered_row
 	}
 }
 
-/* From layers to planes or to the next round; where light leaves the row, only in the step that knows what became of
- * it. */
+/* Write a row to the planes or to the next round. Rows that light leaves are only written in the step that knows what
+ * their paths found. */
 static inline void draw_row(const struct plain_arguments *a, const struct shade_arguments *s, uint x, uint y,
                             struct layered_row *row, struct layered_kept *kept, const struct pack_planes *to)
 {
@@ -338,14 +345,14 @@ static inline void draw_row(const struct plain_arguments *a, const struct shade_
 	a->layers.unknown[y * plain_columns(a->width) + x / PLAIN_WIDTH] = row->unknown & lanes_there(x, a->width);
 }
 
-/* s: with visibility where lights have been asked */
+/* s: with visibility once lights have been queried */
 static inline void do_layered_block(const struct plain_arguments *a, const struct shade_arguments *s, uint step,
                                     uint item)
 {
 	struct layered_kept kept;
 	struct layered_row row;
 	struct layered_block b;
-	uint empty = SCENE_NONE; /* where a row without fragments stands in the planes */
+	uint empty = SCENE_NONE; /* index in the planes of a row without fragments */
 
 	load_block(a, item, &b);
 	pack_keep_nothing(&kept.pack);
@@ -372,7 +379,7 @@ static inline void do_layered_block(const struct plain_arguments *a, const struc
 	}
 }
 
-/* A word of each pixel of a row; of what lies beyond its end the last one's. */
+/* One word per pixel of a row; lanes beyond its end repeat the last pixel. */
 static inline packu load_words(__global const uint *row, uint x, uint width)
 {
 	packu words;
@@ -384,7 +391,7 @@ static inline packu load_words(__global const uint *row, uint x, uint width)
 	return words;
 }
 
-/* A row's pixels from GL's frame buffer. */
+/* Convert a row's pixels from GL's frame buffer. */
 WIDE_VECTORS static inline void keep_start(packu color, packu depth, uint depth_bits, struct layered_kept_row *to)
 {
 	struct pack_pixels *p = &to->pixels;
@@ -416,7 +423,7 @@ KERNEL_OF(float16) void layered_start(KERNEL_ARGUMENTS(layered_start))
 	store_kept(kept + plain_kept(width, x, y), &row);
 }
 
-/* A row's pixels as GL's frame buffer rounds them. */
+/* A row's pixels, rounded as in GL's frame buffer. */
 WIDE_VECTORS static inline packu frame_colors(const struct pack_pixels *p, uint alpha_bits)
 {
 	const packu alpha = alpha_bits ? blend_round(p->gl[3]) : (packu)(255);

@@ -1,8 +1,8 @@
 /*
- * Sixteen fragments of the list at once, a lane each, of any triangles of one material: what they are, and where in
- * their triangles they lie, in the order of operations of setup.h and to the same bits. OpenCL C only.
+ * Sixteen fragments of the list at once, one per lane, from any triangles of one material: loads them and finds their
+ * places in their triangles, in the order of operations of setup.h and with bit-identical results. OpenCL C only.
  *
- * Triangles that leave the view volume are cut one at a time, and the cut ones kept.
+ * Triangles that leave the view volume are clipped one at a time, and the results are cached.
  */
 #pragma once
 
@@ -10,7 +10,7 @@
 #include "kernels/gl/stages.h"
 #include "kernels/rays/gather.h"
 
-/* As struct window_vertex. */
+/* Sixteen of struct window_vertex. */
 struct window_vertex_16 {
 	packi x, y;
 	packf z, w_inv;
@@ -22,43 +22,43 @@ struct window_vertex_16 {
 
 #define PACK_SIZE 16u
 
-/* Fragments as they stand in the list. item: where they stand */
+/* Fragments as in the list. item: their indices there */
 struct pack_list {
 	uint item[PACK_SIZE], instance[PACK_SIZE], primitive[PACK_SIZE], pixel[PACK_SIZE];
 	float b1[PACK_SIZE], b2[PACK_SIZE], depth[PACK_SIZE];
 };
 
-/* Their triangles, and where in them they are. */
+/* The fragments' triangles, and their places in them. */
 struct pack {
 	__global const struct scene_material *material;
 	__global const struct view *view;
-	uint instance, primitive; /* the one whole triangle that pack_place has found them in, kept for the next ones;
-	                             SCENE_NONE: none */
+	uint instance, primitive; /* the single whole triangle that pack_place found all lanes in, cached for the next call;
+                               * SCENE_NONE: none */
 	packi x, row;             /* pixels, row 0 at the top */
-	int uniform;              /* all lie in the same triangle */
-	packi cut, front;         /* all ones: leaves the view volume; shows its front */
-	packu number[3];          /* of the vertices in the mesh */
-	packu vertex[3];          /* and in the frame */
-	packf px[3], py[3], z[3], w_inv[3]; /* corners of the triangle or of the part of it that covers the pixel;
-	                                       places from clip_origin */
-	uint part[PACK_SIZE];               /* pack_part, of those that are cut */
-	packf corner1[3], corner2[3];       /* of parts: the corners' weights of vertices 1 and 2 */
+	int uniform;              /* 1: all lanes are in the same triangle */
+	packi cut, front;         /* all ones: the triangle leaves the view volume; it shows its front */
+	packu number[3];          /* vertex numbers in the mesh */
+	packu vertex[3];          /* vertex numbers in the frame */
+	packf px[3], py[3], z[3], w_inv[3]; /* corners of the triangle, or of the part of it that covers the pixel;
+                                         * positions from clip_origin */
+	uint part[PACK_SIZE];               /* pack_part of the lanes whose triangle is cut */
+	packf corner1[3], corner2[3];       /* for parts: the corners' weights of vertices 1 and 2 */
 	packf vertex_w_inv[3];
 	struct pack_edges edges;
 	packf b1, b2, depth, weight[3];
 	packf away; /* as struct geometry */
 };
 
-/* What the fragments of a triangle that leaves the view volume share, kept for the next ones. */
+/* Clipping results that the fragments of a triangle share, cached for later fragments. */
 #define PACK_CUTS 4u
 struct pack_cut {
-	uint instance, primitive; /* SCENE_NONE: nothing is kept */
+	uint instance, primitive; /* SCENE_NONE: the entry is empty */
 	struct clip_polygon polygon;
 };
 
-/* The vertices of a triangle lit with its lights' visibility, kept for the next fragments. */
+/* The vertices of a triangle lit with its lights' visibility, cached for later fragments. */
 struct pack_lit {
-	uint instance, primitive; /* SCENE_NONE: nothing is kept */
+	uint instance, primitive; /* SCENE_NONE: the entry is empty */
 	struct point p;
 	struct vec3 seen[SCENE_MAX_LIGHTS];
 	struct lit lit[3];
@@ -79,11 +79,11 @@ static inline void pack_keep_nothing(struct pack_kept *kept)
 		kept->cuts[i].instance = SCENE_NONE;
 }
 
-/* Sixteen numbers with the alignment of one: PoCL's vload16 and vstore16 take them one after the other. */
+/* Sixteen numbers with the alignment of one. PoCL's vload16 and vstore16 move them one by one. */
 typedef float16 pack_loose_floats __attribute__((aligned(4)));
 typedef uint16 pack_loose_uints __attribute__((aligned(4)));
 
-/* A fragment of the list, to a lane. */
+/* Load a fragment of the list into a lane. */
 static inline void pack_take(__global const struct fragment *fragments, __global const uint *pixels, uint item,
                              uint lane, struct pack_list *list)
 {
@@ -96,7 +96,7 @@ static inline void pack_take(__global const struct fragment *fragments, __global
 	list->pixel[lane] = pixels[item];
 }
 
-/* Sixteen fragments of n, from `first` on. Lanes beyond them repeat the last. */
+/* Sixteen of n fragments, starting at `first`. Lanes beyond them repeat the last. */
 static inline void pack_list(__global const struct fragment *fragments, __global const uint *pixels, uint first, uint n,
                              struct pack_list *list)
 {
@@ -106,13 +106,15 @@ static inline void pack_list(__global const struct fragment *fragments, __global
 
 /* --- Which ones -------------------------------------------------------------------------------------------------- */
 
-/* Whether a pack can take fragments of a geometry with others of its material. */
+/* Test whether a pack can handle fragments of a geometry together with others of its material. */
 static inline int pack_knows_geometry(__global const struct geometry *g)
 {
 	return !g->flags && !(g->attributes & SCENE_HAS_FACE);
 }
 
-/* Those of some lanes that a pack can take with the first of them. material: receives that one's */
+/*
+ * The lanes, out of a set, that a pack can handle together with the first of them. material: receives the first one's
+ */
 static inline uint pack_same_kind(const struct tables *t, const struct pack_list *list, uint lanes, uint *material)
 {
 	const uint first = list->instance[popcount((lanes & -lanes) - 1)];
@@ -130,8 +132,7 @@ static inline uint pack_same_kind(const struct tables *t, const struct pack_list
 	return same;
 }
 
-/* The items of a launch that a work item does, SHADE_PACKET of them: a bit for each that is left, and for each that
- * packs know. */
+/* The SHADE_PACKET items of a work item: a bit for each that is left, and for each that packs can handle. */
 struct pack_left {
 	uint first;
 	ulong all, packed;
@@ -139,8 +140,8 @@ struct pack_left {
 };
 
 /*
- * The first item that is left, with those of its material that share a pack with it. Lanes beyond them repeat the last.
- * @return a bit for each lane; 0: packs do not know it, item[0] goes alone
+ * The first item left, with other items of its material that share a pack with it. Lanes beyond them repeat the last.
+ * @return a bit for each lane; 0: packs cannot handle it, and item[0] is processed alone
  */
 static inline uint pack_next(struct pack_left *left, uint *item)
 {
@@ -167,14 +168,14 @@ static inline uint pack_next(struct pack_left *left, uint *item)
 
 /* --- Loading ----------------------------------------------------------------------------------------------------- */
 
-/* The lanes that lie in a triangle. */
+/* The lanes that are in one triangle. */
 WIDE_VECTORS static inline uint pack_in_triangle(const struct pack_list *list, uint instance, uint primitive)
 {
 	return pack_bits((*(const pack_loose_uints *)list->primitive == primitive) &
 	                 (*(const pack_loose_uints *)list->instance == instance));
 }
 
-/* The lanes' triangles. Lanes that are not asked for repeat the first that is. */
+/* Load the lanes' triangles. Unselected lanes repeat the first selected one. */
 WIDE_VECTORS static inline void pack_load_triangles(const struct tables *t, const struct pack_list *list, uint lanes,
                                                     struct pack *p)
 {
@@ -200,7 +201,7 @@ WIDE_VECTORS static inline void pack_load_triangles(const struct tables *t, cons
 	}
 }
 
-/* And their pixels. */
+/* Load their pixels. */
 WIDE_VECTORS static inline void pack_load_pixels(uint width, uint height, const struct pack_list *list, struct pack *p)
 {
 	const packu pixel = *(const pack_loose_uints *)list->pixel;
@@ -210,7 +211,7 @@ WIDE_VECTORS static inline void pack_load_pixels(uint width, uint height, const 
 	p->depth = *(const pack_loose_floats *)list->depth;
 	p->row = convert_int16(convert_float16(pixel) / (float)width);
 	p->x = as_int16(pixel) - p->row * (int)width;
-	p->row += (p->x < 0) - (p->x >= (int)width); /* the quotient may be off by one; true is -1 */
+	p->row += (p->x < 0) - (p->x >= (int)width); /* the quotient may be off by one; true is -1 in vectors */
 	p->x = as_int16(pixel) - p->row * (int)width;
 	p->row = (int)height - 1 - p->row;
 }
@@ -222,7 +223,7 @@ static inline void pack_load(const struct tables *t, uint width, uint height, co
 	pack_load_pixels(width, height, list, p);
 }
 
-/* Of a table of four numbers each, the lanes' entries; one for all in a uniform pack. */
+/* The lanes' entries of a table of four numbers each; a single load in a uniform pack. */
 WIDE_VECTORS static inline void pack_row(__global const float *table, const struct pack *p, packu index, packf *row)
 {
 	float4 all;
@@ -238,10 +239,10 @@ WIDE_VECTORS static inline void pack_row(__global const float *table, const stru
 	row[3] = all.w;
 }
 
-/* A row of the vertex stage's numbers, four at a time: struct shaded_vertex has eight fours. */
+/* Rows of the vertex stage's output, four numbers at a time: struct shaded_vertex has eight of them. */
 #define PACK_CLIP 0u
 #define PACK_EYE 1u
-#define PACK_COLOR 2u     /* + 1: of the back */
+#define PACK_COLOR 2u     /* + 1: back side */
 #define PACK_SECONDARY 4u /* + 1 */
 #define PACK_NORMAL 6u    /* and the fog coordinate */
 #define PACK_LIT 7u
@@ -259,7 +260,7 @@ WIDE_VECTORS static inline struct vec4_16 pack_vertex4(const struct tables *t, c
 	return v4_16(row[0], row[1], row[2], row[3]);
 }
 
-/* Triangles that run clockwise, from clip space. */
+/* Triangles that run clockwise, judged from clip space. */
 WIDE_VECTORS static inline packi pack_by_clip(packf (*c)[4])
 {
 	const packf x = c[0][1] * c[1][3] - c[0][3] * c[1][1], y = c[0][3] * c[1][0] - c[0][0] * c[1][3];
@@ -268,7 +269,7 @@ WIDE_VECTORS static inline packi pack_by_clip(packf (*c)[4])
 	return x * c[2][0] + y * c[2][1] + z * c[2][3] < 0.0f;
 }
 
-/* The triangles in the window, and which side they show. */
+/* The triangles in the window, and the side that they show. */
 WIDE_VECTORS static inline void pack_window(const struct tables *t, __global const struct window_vertex *windows,
                                             struct pack *p)
 {
@@ -294,7 +295,7 @@ WIDE_VECTORS static inline void pack_window(const struct tables *t, __global con
 	p->front = p->material->front_face == GL_CW ? clockwise : ~clockwise;
 }
 
-/* Where the vertices fall, not snapped. */
+/* Window positions of the vertices, not snapped. */
 WIDE_VECTORS static inline void pack_corners(const struct shade_arguments *a, struct pack *p)
 {
 	for (int k = 0; k < 3; k++) {
@@ -306,7 +307,7 @@ WIDE_VECTORS static inline void pack_corners(const struct shade_arguments *a, st
 	}
 }
 
-/* What the view volume leaves of a lane's triangle. */
+/* The part of a lane's triangle inside the view volume. */
 static inline const struct clip_polygon *pack_polygon(const struct shade_arguments *a, const struct pack_list *list,
                                                       const struct pack *p, uint lane, struct pack_kept *kept)
 {
@@ -323,7 +324,7 @@ static inline const struct clip_polygon *pack_polygon(const struct shade_argumen
 	return &cut->polygon;
 }
 
-/* As clip_inside. x, y: where the lanes look, 1/256 pixel from the bottom */
+/* clip_inside for all lanes. x, y: sample positions, 1/256 pixel from the bottom */
 WIDE_VECTORS static inline packi pack_inside(struct window_vertex a, struct window_vertex b, int sign, packi x, packi y)
 {
 	const int dx = sign * (b.x - a.x), dy = sign * (b.y - a.y), has_edge = dy < 0 || (dy == 0 && dx > 0);
@@ -332,7 +333,7 @@ WIDE_VECTORS static inline packi pack_inside(struct window_vertex a, struct wind
 	return convert_int16(e > (long)(has_edge ? -1 : 0));
 }
 
-/* As clip_covers. */
+/* clip_covers for all lanes. */
 WIDE_VECTORS static inline packi pack_covers_part(struct window_vertex v0, struct window_vertex v1,
                                                   struct window_vertex v2, packi x, packi y)
 {
@@ -344,7 +345,7 @@ WIDE_VECTORS static inline packi pack_covers_part(struct window_vertex v0, struc
 	return pack_inside(v0, v1, sign, x, y) & pack_inside(v1, v2, sign, x, y) & pack_inside(v2, v0, sign, x, y);
 }
 
-/* The part of a polygon that covers the lanes' pixels, by its second corner; polygon->n: none does. */
+/* The part of a polygon that covers each lane's pixel, as the number of its second corner; polygon->n: none does. */
 WIDE_VECTORS static inline packu pack_part(const struct shade_arguments *a, const struct clip_polygon *polygon,
                                            const struct pack *p)
 {
@@ -352,7 +353,7 @@ WIDE_VECTORS static inline packu pack_part(const struct shade_arguments *a, cons
 		    y = ((int)a->height - 1 - p->row) * 256 + 128 + p->view->sample[1];
 	packu part = polygon->n;
 
-	for (uint k = polygon->n; k-- > 2;) /* the first of several */
+	for (uint k = polygon->n; k-- > 2;) /* the first of several wins */
 		part = select(part, (packu)(k),
 		              pack_covers_part(polygon->corner[k - 1].window, polygon->corner[k].window,
 		                               polygon->corner[0].window, x, y));
@@ -365,7 +366,7 @@ static inline const struct clip_corner *pack_corner(const struct clip_polygon *p
 	return &polygon->corner[k == 2 ? 0 : part - 1 + k];
 }
 
-/* Those of some lanes that lie in the same part of the same triangle as the first of them. */
+/* The lanes, out of a set, that are in the same part of the same triangle as the first of them. */
 WIDE_VECTORS static inline uint pack_same_part(const struct pack_list *list, const struct pack *p, uint lanes)
 {
 	const uint lane = popcount((lanes & -lanes) - 1);
@@ -374,7 +375,7 @@ WIDE_VECTORS static inline uint pack_same_part(const struct pack_list *list, con
 	       pack_bits(vload16(0, p->part) == p->part[lane]);
 }
 
-/* The corners of a part, in place of those of the lanes' triangle. */
+/* Replace the corners of the lanes' triangle by those of a part. */
 WIDE_VECTORS static inline void pack_place_part(const struct clip_polygon *polygon, uint part, packi lanes,
                                                 struct pack *p)
 {
@@ -390,7 +391,9 @@ WIDE_VECTORS static inline void pack_place_part(const struct clip_polygon *polyg
 	}
 }
 
-/* Four numbers of the vertices of a lane's triangle become those of its part's corners in all lanes of the part. */
+/*
+ * Replace four numbers at the vertices of a lane's triangle by those at its part's corners, in all lanes of the part.
+ */
 WIDE_VECTORS static inline void pack_cut_row(const struct clip_polygon *polygon, uint lane, packi lanes,
                                              const struct pack *p, packf (*row)[4])
 {
@@ -413,7 +416,7 @@ WIDE_VECTORS static inline void pack_cut_row(const struct clip_polygon *polygon,
 
 /* --- Where they are ---------------------------------------------------------------------------------------------- */
 
-/* As setup_offset. */
+/* setup_offset for all lanes. */
 WIDE_VECTORS static inline packf pack_offset(const struct pack *p, uint bits)
 {
 	const struct pack_edges *e = &p->edges;
@@ -425,7 +428,7 @@ WIDE_VECTORS static inline packf pack_offset(const struct pack *p, uint bits)
 	return p->material->polygon_offset_units * setup_step(bits) + slope * p->material->polygon_offset_factor;
 }
 
-/* Depth, and the weights of the vertices on the screen, as setup_unsnap finds them. bits: of the depth buffer */
+/* Depth, and the vertices' weights on the screen, as in setup_unsnap. bits: of the depth buffer */
 WIDE_VECTORS static inline void pack_unsnap(struct pack *p, uint bits)
 {
 	__global const struct view *view = p->view;
@@ -451,7 +454,7 @@ WIDE_VECTORS static inline void pack_unsnap(struct pack *p, uint bits)
 	}
 }
 
-/* As fragment_weights. */
+/* fragment_weights for all lanes. */
 WIDE_VECTORS static inline void pack_weigh(struct pack *p)
 {
 	const packf one = 1.0f;
@@ -464,13 +467,13 @@ WIDE_VECTORS static inline void pack_weigh(struct pack *p)
 	p->weight[2] = c2 / sum;
 }
 
-/* All ones where the back's colours count. */
+/* All ones in lanes that use the back side's colours. */
 WIDE_VECTORS static inline packi pack_side(const struct pack *p)
 {
 	return p->material->two_side ? ~p->front : (packi)(0);
 }
 
-/* The lanes' triangles and the weights of their vertices, for fragments that have been shaded. */
+/* The lanes' triangles and the weights of their vertices, for fragments that are already shaded. */
 static inline void pack_locate(const struct tables *t, __global const struct window_vertex *windows, uint width,
                                uint height, const struct pack_list *list, uint lanes, struct pack *p)
 {
@@ -479,7 +482,7 @@ static inline void pack_locate(const struct tables *t, __global const struct win
 	pack_weigh(p);
 }
 
-/* The corners and edges of the lanes' triangles. @return the lanes of which a part of the triangle covers the pixel */
+/* The corners and edges of the lanes' triangles. @return the lanes whose pixel is covered by a part of the triangle */
 static inline uint pack_find(const struct shade_arguments *a, const struct pack_list *list, uint lanes,
                              struct pack_kept *kept, struct pack *p)
 {
@@ -505,9 +508,9 @@ static inline uint pack_find(const struct shade_arguments *a, const struct pack_
 }
 
 /*
- * Find the lanes' places in their triangles.
- * p: with material and view, and with instance and primitive: those of the last ones, or SCENE_NONE
- * @return the lanes that have one: others lie in slivers
+ * Find the lanes' places in their triangles. p: material and view are set, and instance and primitive, which are the
+ * last call's or SCENE_NONE
+ * @return the lanes that have a place; the others are in slivers
  */
 static inline uint pack_place(const struct shade_arguments *a, const struct pack_list *list, uint lanes, int first_time,
                               struct pack_kept *kept, struct pack *p)

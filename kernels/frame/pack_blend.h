@@ -1,6 +1,6 @@
 /*
- * Per-fragment operations on sixteen pixels of a row at once, a lane each: what pixel.h and blend.h do for one, to the
- * same bits. OpenCL C only. No stencil test, no logic operations, no samples, no frame buffers of floats.
+ * Per-fragment operations on sixteen pixels of a row at once, one per lane, with results that are bit-identical to
+ * pixel.h and blend.h. OpenCL C only. No stencil test, logic operations, multisampling or float frame buffers.
  */
 #pragma once
 
@@ -12,8 +12,7 @@
 #include "kernels/gl/pixel_lanes.h"
 #include "kernels/one_lanes.h"
 
-/* When nothing is left of a destination that is blended by a pair of factors: 0 never, 1 ever, 2 where the source's
- * alpha is 1. */
+/* When a pair of blend factors leaves nothing of the destination: 0 never, 1 always, 2 if the source's alpha is 1. */
 static inline int pack_blend_covers(uint source, uint destination)
 {
 	switch (source) {
@@ -26,7 +25,7 @@ static inline int pack_blend_covers(uint source, uint destination)
 	}
 }
 
-/* The same of all colours below fragments of a material. */
+/* The same for all colours below fragments of a material. */
 static inline int pack_covers(__global const struct scene_material *m)
 {
 	int rgb, alpha;

@@ -1,10 +1,10 @@
-/* Texture environments in sixteen lanes, by the text of combine.h. OpenCL C only. */
+/* Texture environments in sixteen lanes, using the text of combine.h. OpenCL C only. */
 #pragma once
 
 #include "kernels/frame/pack_texture.h"
 #include "kernels/gl/combine.h"
 
-/* Which of a material's units a number of GL's belongs to; unit_count: none. units: the material's */
+/* Index of the material's unit with a given GL unit number; unit_count: none. units: the material's */
 static inline uint pack_find_unit(__global const struct scene_material *m, __global const struct scene_unit *units,
                                   uint number)
 {
@@ -15,8 +15,7 @@ static inline uint pack_find_unit(__global const struct scene_material *m, __glo
 	return i;
 }
 
-/* Whether packs know what unit i asks for: sources that are there, products of colours for
- * colours alone. */
+/* Test whether packs can handle unit i: its sources exist, and products of colours are only used for colours. */
 static inline int pack_knows_combine(__global const struct scene_material *m, __global const struct scene_unit *units,
                                      uint i)
 {

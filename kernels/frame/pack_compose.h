@@ -1,6 +1,6 @@
 /*
- * The numbers of sixteen pixels of a row on their way to the planes of a picture: what compose.h does for one, to the
- * same bits. OpenCL C only.
+ * Composes sixteen pixels of a row into the planes of a picture, with results that are bit-identical to compose.h.
+ * OpenCL C only.
  */
 #pragma once
 
@@ -21,24 +21,24 @@
 #endif
 #endif
 
-/* As pack_loose_floats. */
+/* Like pack_loose_floats. */
 typedef ushort16 pack_loose_halves __attribute__((aligned(2)));
 
-/* Pixels before they are composed; colours as GL counts them. */
+/* Pixels before composition; colours are GL's numbers. */
 struct pack_pixels {
 	packf gl[4], shadowed[3], direct[3], mirrored[3], beauty[3], albedo[3];
 	packf drawn, depth, normal[3], position[3], id, layers;
 };
 
-/* Where they go. */
+/* Where composed pixels are stored. */
 struct pack_planes {
 	const struct compose_request *request;
 	__global ushort *halves;
 	__global float *floats;
-	uint at, n; /* of the first pixel in each plane; how many of the sixteen there are */
+	uint at, n; /* index of the first pixel in each plane; number of pixels, at most sixteen */
 };
 
-/* Those of a row of sixteen pixels, or as many as there are. r: kept. y: from the bottom */
+/* Planes of a row of up to sixteen pixels. r: kept. y: from the bottom */
 static inline struct pack_planes pack_planes_of(const struct compose_request *r, __global ushort *halves,
                                                 __global float *floats, uint x, uint y)
 {
@@ -52,11 +52,11 @@ static inline struct pack_planes pack_planes_of(const struct compose_request *r,
 	return to;
 }
 
-/* compose_half, by the processor's own conversion where it has one. */
+/* compose_half, using the processor's own conversion if it has one. */
 WIDE_VECTORS static inline ushort16 pack_half(packf x)
 {
 #if defined(PACK_HALF16) || defined(PACK_HALF8)
-	/* One kind of NaN. */
+	/* A single kind of NaN. */
 	const packf value = select(x, as_float16((as_uint16(x) & 0x80000000u) | 0x7fc00000u), isnan(x));
 #endif
 #ifdef PACK_HALF16
@@ -69,7 +69,7 @@ WIDE_VECTORS static inline ushort16 pack_half(packf x)
 #endif
 }
 
-/* Whether any plane shows where surfaces lie. */
+/* Test whether any plane needs the surfaces' positions. */
 static inline int pack_wants_surface(const struct compose_request *r)
 {
 	return r->normals ||
@@ -78,13 +78,13 @@ static inline int pack_wants_surface(const struct compose_request *r)
 	        r->float_plane[COMPOSE_POSITION + 2] & r->float_plane[COMPOSE_Z]) != SCENE_NONE;
 }
 
-/* Some lanes of a number. */
+/* Set some lanes of a number. */
 WIDE_VECTORS static inline void pack_put(packf *number, packf value, packi mask)
 {
 	*number = select(*number, value, mask);
 }
 
-/* Where the surfaces of some lanes lie. */
+/* Store the surface positions of some lanes. */
 WIDE_VECTORS static inline void pack_put_surface(const struct tables *t, const struct pack *p,
                                                  const struct pack_surface *s, packi mask, struct pack_pixels *to)
 {
@@ -139,7 +139,7 @@ WIDE_VECTORS static inline void pack_store_float(const struct pack_planes *to, u
 		out[i] = ((const float *)&x)[i];
 }
 
-/* A number as it is encoded; `before`, encoded already as `known`, is mostly the same. */
+/* Encode a number. `before`, whose encoding is `known`, is usually equal to it. */
 WIDE_VECTORS static inline packf pack_encode(const struct compose_request *r, packf x, packf before, packf known)
 {
 	if (r->display)
@@ -147,14 +147,14 @@ WIDE_VECTORS static inline packf pack_encode(const struct compose_request *r, pa
 	return any_pack(as_int16(x) != as_int16(before)) ? encode_linear(x) : known;
 }
 
-/* The part that one step adds to a sum, as compose_channel has it. display, before: after and before the step, not
+/* The part that one step adds to a sum, as in compose_channel. display, before: after and before the step, not
  * encoded */
 WIDE_VECTORS static inline packf pack_part_of(packf display, packf before, packf color, packf sum)
 {
 	return select((packf)(0), compose_rounded(color - sum), display != before);
 }
 
-/* A channel that no effect has a part in: GL's own colour alone. exact: it, encoded */
+/* A channel without effects, which is GL's own colour. exact: that colour, encoded */
 WIDE_VECTORS static inline void pack_compose_gl(packf exact, int c, const struct pack_planes *to)
 {
 	const packf gl = compose_rounded(exact), relight = compose_effect(exact - gl, exact);
@@ -167,7 +167,7 @@ WIDE_VECTORS static inline void pack_compose_gl(packf exact, int c, const struct
 	pack_store_half(to, COMPOSE_REFRACT + c, (packf)(0));
 }
 
-/* One colour channel, as compose_nudge, compose_normals, compose_encode and compose_channel take it apart. first: GL's,
+/* One colour channel, decomposed as in compose_nudge, compose_normals, compose_encode and compose_channel. first: GL's,
  * or the normal's */
 WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p, packf nudged, packf first,
                                                      packf exact, int c, const struct pack_planes *to)
@@ -195,8 +195,8 @@ WIDE_VECTORS static inline void pack_compose_channel(const struct pack_pixels *p
 	pack_store_half(to, COMPOSE_REFRACT + c, refract);
 }
 
-/* The same; what no effect changes goes a shorter way. nudged: compose_nudged; first, exact: as pack_compose_channel
- * takes them */
+/* The same, with a shortcut for values that no effect changes. nudged: compose_nudged; first, exact: as in
+ * pack_compose_channel */
 WIDE_VECTORS static inline void pack_compose_color(const struct pack_pixels *p, packf nudged, packf first, packf exact,
                                                    int c, const struct pack_planes *to)
 {
@@ -224,13 +224,13 @@ WIDE_VECTORS static inline void pack_compose_albedo(const struct pack_pixels *p,
 		pack_store_half(to, COMPOSE_ALBEDO + c, albedo[c]);
 }
 
-/* The colours that were encoded last, and what became of them: rows of one colour are many. */
+/* The colours encoded last, and their encodings, since consecutive rows often have the same colours. */
 struct pack_encoded {
-	int known; /* 0: nothing yet */
+	int known; /* 0: empty */
 	packf gl[3], nudged[3], first[3], exact[3];
 };
 
-/* Encode a row's colours, if they are not those that were encoded last. */
+/* Encode a row's colours, unless they equal the ones encoded last. */
 WIDE_VECTORS static inline void pack_encode_row(const struct pack_pixels *p, const struct compose_request *r,
                                                 struct pack_encoded *last)
 {
@@ -251,9 +251,8 @@ WIDE_VECTORS static inline void pack_encode_row(const struct pack_pixels *p, con
 }
 
 /*
- * All planes.
- * is_gl: no effect has a part in any of them, and the colours after p->gl are not there: they would be the same numbers
- * last: of the row before, or not known
+ * All planes. is_gl: no effect changes any of them, and the colours after p->gl are not set, as they would be the same
+ * numbers last: of the row before, or not known
  */
 WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, int is_gl, const struct pack_planes *to,
                                              struct pack_encoded *last)
@@ -278,7 +277,7 @@ WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, int is
 	pack_store_float(to, COMPOSE_LAYERS, p->layers);
 }
 
-/* The planes of sixteen pixels once more: what they are at another place. */
+/* Copy the planes of sixteen pixels from another place in the planes. */
 WIDE_VECTORS static inline void pack_compose_again(uint from, const struct pack_planes *to)
 {
 	const struct compose_request *r = to->request;

@@ -1,13 +1,12 @@
 /*
- * Anisotropic samples of a texture in sixteen lanes: what texture_ellipse does for one, in the same order of
- * operations. Each lane has a footprint of its own; all go through their texels row by row together, as long as any has
- * some left. OpenCL C only.
+ * Anisotropic texture samples in sixteen lanes, in the order of operations of texture_ellipse. Each lane has its own
+ * footprint; all lanes process their texels row by row together, until none has any left. OpenCL C only.
  */
 #pragma once
 
 #include "kernels/frame/pack_texture.h"
 
-/* Where texels of a row stand, as texture_place has it for the two plain wraps. */
+/* Positions of a row's texels, as in texture_place for the two plain wraps. */
 WIDE_VECTORS static inline packi pack_place_texel(uint wrap, packi i, packi n)
 {
 	const packi power_of_two = (n & (n - 1)) == 0;
@@ -21,16 +20,16 @@ WIDE_VECTORS static inline packi pack_place_texel(uint wrap, packi i, packi n)
 	return select(rest, rest + n, rest < 0);
 }
 
-/* Footprints: u, v their centres in texels; a, b, e of the ellipses, scaled; where they begin and how many texels they
- * reach over. */
+/* Footprints: u, v are their centres in texels; a, b, e the scaled ellipses; then their first texels and sizes in
+ * texels. */
 struct pack_footprint {
 	packf u, v, a, b, e, first_x, first_y;
 	packi columns, rows;
 };
 
 /*
- * As texture_ellipse finds them.
- * @return the lanes that have one: some of `lanes`. It reaches over less than 64 texels
+ * Footprints as in texture_ellipse.
+ * @return the lanes, out of `lanes`, that have one that extends over less than 64 texels
  */
 WIDE_VECTORS static inline packi pack_footprint(const struct pack_level *l, const struct pack_slope *slope, packi level,
                                                 packf s, packf t, packi lanes, struct pack_footprint *out)
@@ -65,10 +64,10 @@ static inline int pack_most(packi x)
 }
 
 /*
- * The columns of a row that an ellipse reaches, from *first on. It is taken a little larger, beyond what rounding
- * moves: which texels lie in it, q decides.
+ * The columns of a row that an ellipse covers, starting at *first. The range is enlarged beyond any rounding error; q
+ * decides which texels are inside.
  * @param dy  from the centre to the row
- * @return how many: 0 in a lane where the ellipse does not reach the row
+ * @return the number of columns; 0 in a lane whose ellipse does not reach the row
  */
 WIDE_VECTORS static inline packi pack_row_of_ellipse(const struct pack_footprint *at, packf dy, packi rows_left,
                                                      packi *first)
@@ -82,7 +81,7 @@ WIDE_VECTORS static inline packi pack_row_of_ellipse(const struct pack_footprint
 	return (min(end, at->columns) - *first) & rows_left & (rest > 0.0f);
 }
 
-/* The Gaussian at places of an ellipse, 0 beyond it. */
+/* The Gaussian at positions inside the ellipse, 0 outside. */
 WIDE_VECTORS static inline packf pack_gauss(packf q, packi there)
 {
 	const packu place = as_uint16(convert_int16(select((packf)(0), q, there & (q > 0.0f))));
@@ -93,7 +92,7 @@ WIDE_VECTORS static inline packf pack_gauss(packf q, packi there)
 /*
  * The weighted texels of footprints.
  * @param out  [4]
- * @return the lanes that have some
+ * @return the lanes that have any
  */
 WIDE_VECTORS static inline packi pack_ellipse(const struct tables *tables, __global const struct scene_unit *unit,
                                               const struct pack_level *l, const struct pack_footprint *at, packf *out)
@@ -131,7 +130,7 @@ WIDE_VECTORS static inline packi pack_ellipse(const struct tables *tables, __glo
 	return sum_weight > 0.0f;
 }
 
-/* Samples of a unit that is filtered anisotropically: one level a lane. */
+/* Samples of a unit with anisotropic filtering: one level per lane. */
 WIDE_VECTORS static inline void pack_anisotropic(const struct tables *t, __global const struct texture_image *image,
                                                  __global const struct scene_unit *unit, const struct pack_slope *slope,
                                                  const packf *c, packi lanes, packf *out)

@@ -1,4 +1,4 @@
-/* Sixteen of OpenGL's numbers as light and back, as encode.h has one. OpenCL C only. */
+/* Sixteen GL numbers as light and back, as in encode.h. OpenCL C only. */
 #pragma once
 
 #include "kernels/encode.h"
@@ -9,7 +9,7 @@
 #include "kernels/encode_lanes.h"
 #include "kernels/one_lanes.h"
 
-/* Of three at once, which overlap: each is a long chain of steps. */
+/* Three at once, so that their long dependency chains overlap. */
 WIDE_VECTORS static inline void pack_linear3(packf *c)
 {
 	const packf first = encode_linear(c[0]), second = encode_linear(c[1]), third = encode_linear(c[2]);

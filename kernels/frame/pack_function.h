@@ -1,4 +1,4 @@
-/* Functions of programs for sixteen numbers at once, by the text of gl/functions.h. OpenCL C only. */
+/* Functions of programs for sixteen numbers at once, using the text of gl/functions.h. OpenCL C only. */
 #pragma once
 
 #include "kernels/frame/pack_vector.h"

@@ -1,7 +1,7 @@
 /*
  * Hits of paths, and fragments that light leaves, sixteen of one material at once: what point.h, transparency.h and
- * path.h have for one, in the same order of operations and to the same bits. OpenCL C only. pack_knows_paths says which
- * materials it knows.
+ * path.h do for one, in the same order of operations and with bit-identical results. OpenCL C only. pack_knows_paths
+ * tests which materials are supported.
  */
 #pragma once
 
@@ -9,23 +9,23 @@
 #include "kernels/frame/pack_shade.h"
 #include "kernels/frame/path.h"
 
-/* Points of triangles, and the directions in which they are looked at. */
+/* Points on triangles, and the directions they are seen along. */
 struct pack_points {
 	struct pack_list list;
 	uint lanes;
 	struct pack p;
 	struct pack_surface surface;
-	struct vec3_16 d, back;  /* as the rays have it; against it, length 1 */
-	packf t, t_min;          /* of hits */
+	struct vec3_16 d, back;  /* d: of the rays; back: opposite, of length 1 */
+	packf t, t_min;          /* for hits */
 };
 
-/* Whether packs know all that a material asks of fragments that light leaves. */
+/* Test whether packs support everything that a material needs for fragments that light leaves. */
 static inline int pack_knows_leaving(const struct shade_arguments *s, __global const struct scene_material *m)
 {
 	return s->transport == TRANSPORT_GL && pack_is_plain(s, m) && pack_knows_rays(m);
 }
 
-/* And of hits. A near mirror in another one mirrors nothing. */
+/* The same for hits. A near mirror seen in another mirror reflects nothing. */
 static inline int pack_knows_paths(const struct shade_arguments *s, __global const struct scene_material *m)
 {
 	return pack_knows_leaving(s, m) && !m->alpha_test && (!m->blend || m->surface.hidden & SCENE_SOLID) &&
@@ -33,7 +33,7 @@ static inline int pack_knows_paths(const struct shade_arguments *s, __global con
 	       (m->surface.hidden & SCENE_NEAR_MIRROR || !(m->surface.roughness > 0.0f));
 }
 
-/* The same where light is followed: what is matte, and shines by itself at most. */
+/* The same for light transport: matte surfaces that may emit only their own colour. */
 static inline int pack_knows_bounces(const struct shade_arguments *s, __global const struct scene_material *m)
 {
 	return pack_is_plain(s, m) && pack_knows_rays(m) && !m->alpha_test && (!m->blend || m->surface.hidden & SCENE_SOLID) &&
@@ -53,7 +53,7 @@ static inline void pack_take_hit(__global const struct hit *hits, uint item, uin
 	list->pixel[lane] = 0;
 }
 
-/* As point_divide_weights, for the lanes `which`. */
+/* point_divide_weights for the lanes `which`. */
 WIDE_VECTORS static inline void pack_divide_weights(packf (*e)[4], packi which, packf *weight)
 {
 	packf divided[3], sum;
@@ -65,7 +65,7 @@ WIDE_VECTORS static inline void pack_divide_weights(packf (*e)[4], packi which, 
 		weight[k] = select(weight[k], divided[k] / sum, which);
 }
 
-/* The hits of q->list, as point_from_hit has them. material: theirs */
+/* Place the hits of q->list, as in point_from_hit. material: theirs */
 WIDE_VECTORS static inline void pack_place_hits(const struct tables *t, __global const struct ray *rays,
                                                 __global const struct scene_material *material, struct pack_points *q)
 {
@@ -94,7 +94,7 @@ WIDE_VECTORS static inline void pack_place_hits(const struct tables *t, __global
 	p->front = material->front_face == GL_CW ? behind : ~behind;
 }
 
-/* Textures at hits, as point_texture has them for points without neighbours. */
+/* Sample textures at hits, as point_texture does for points without neighbours. */
 WIDE_VECTORS static inline void pack_texture_hits(const struct tables *t, const struct pack_list *list,
                                                   const struct pack *p, uint lanes, struct pack_texturing *out)
 {
@@ -133,13 +133,13 @@ WIDE_VECTORS static inline void pack_texture_hits(const struct tables *t, const 
 
 /* --- Ways on ----------------------------------------------------------------------------------------------------- */
 
-/* As struct split. */
+/* Sixteen of struct split. */
 struct pack_split {
 	struct vec3_16 normal;
 	packf mirrored, through, base, eta, cosine, cosine_beyond;
 };
 
-/* As glass_fresnel. */
+/* glass_fresnel for all lanes. */
 WIDE_VECTORS static inline packf pack_fresnel(packf eta, packf cosine, packf *cosine_beyond)
 {
 	const packf k = 1.0f - eta * eta * (1.0f - cosine * cosine);
@@ -152,7 +152,7 @@ WIDE_VECTORS static inline packf pack_fresnel(packf eta, packf cosine, packf *co
 	return select((packf)(1), 0.5f * (across * across + along * along), passes);
 }
 
-/* As glass_enters. */
+/* glass_enters for all lanes. */
 WIDE_VECTORS static inline packi pack_enters(const struct pack *p)
 {
 	const uint hidden = p->material->surface.hidden;
@@ -160,7 +160,7 @@ WIDE_VECTORS static inline packi pack_enters(const struct pack *p)
 	return hidden & SCENE_ENTERED ? (packi)(-1) : hidden & SCENE_BACK_OUTSIDE ? ~p->front : p->front;
 }
 
-/* As split_light. d: length as split_light takes it */
+/* split_light for all lanes. d: of the length that split_light expects */
 WIDE_VECTORS static inline void pack_split_light(const struct tables *t, const struct pack_points *q, struct vec3_16 d,
                                                  struct pack_split *s)
 {
@@ -179,16 +179,16 @@ WIDE_VECTORS static inline void pack_split_light(const struct tables *t, const s
 	s->through = through * (1.0f - fresnel);
 }
 
-/* Where the next rays of items are written, so many places each. */
+/* Where the next rays of items are written, with `slots` places per item. */
 struct pack_branches {
 	__global struct ray *rays;
 	__global struct path *paths;
 	uint slots;
-	uint count[PACK_SIZE];      /* of each lane, so far */
-	packu target, depth, medium; /* of the paths that end here */
+	uint count[PACK_SIZE];      /* rays of each lane so far */
+	packu target, depth, medium; /* from the paths that end here */
 };
 
-/* As branch_on_side. */
+/* branch_on_side for all lanes. */
 WIDE_VECTORS static inline struct vec3_16 pack_on_side(struct vec3_16 d, struct vec3_16 plane)
 {
 	const packf into = v3_dot(d, plane);
@@ -196,7 +196,7 @@ WIDE_VECTORS static inline struct vec3_16 pack_on_side(struct vec3_16 d, struct 
 	return v3_choose(into < 0.0f, v3_normalize(v3_sub(d, v3_scale(plane, 1.001f * into))), d);
 }
 
-/* Rays of some lanes in a direction, as branch and stage_ray have them. */
+/* Rays of some lanes in a direction, as in branch and stage_ray. */
 WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint lanes, struct vec3_16 direction,
                                             struct vec3_16 weight, packu kind, packu medium, struct pack_branches *b)
 {
@@ -223,7 +223,7 @@ WIDE_VECTORS static inline void pack_branch(const struct pack_points *q, uint la
 	}
 }
 
-/* As branch_normal. */
+/* branch_normal for all lanes. */
 WIDE_VECTORS static inline struct vec3_16 pack_mirror_normal(const struct tables *t, const struct pack *p,
                                                              struct vec3_16 n)
 {
@@ -232,7 +232,7 @@ WIDE_VECTORS static inline struct vec3_16 pack_mirror_normal(const struct tables
 	return p->material->lighting || kind != SCENE_NEAR_MIRROR ? n : pack_smooth_normal(t, p, n);
 }
 
-/* As branch_mirror, of what is smooth. */
+/* branch_mirror for smooth materials. */
 WIDE_VECTORS static inline void pack_branch_mirror(const struct tables *t, const struct pack_points *q, uint lanes,
                                                    struct vec3_16 d, const struct pack_split *s, struct vec3_16 weight,
                                                    packu kind, struct pack_branches *b)
@@ -244,7 +244,7 @@ WIDE_VECTORS static inline void pack_branch_mirror(const struct tables *t, const
 	pack_branch(q, lanes, pack_on_side(away, side), weight, kind, b->medium, b);
 }
 
-/* As branch_mirror, of fragments' materials that are rough. */
+/* branch_mirror for fragments of rough materials. */
 static inline void pack_branch_rough(const struct leave_arguments *a, const struct pack_points *q, struct vec3_16 d,
                                      const struct pack_split *s, struct vec3_16 weight, packu kind,
                                      struct pack_branches *b)
@@ -270,7 +270,7 @@ static inline void pack_branch_rough(const struct leave_arguments *a, const stru
 	pack_branch(q, q->lanes, pack_on_side(away, side), weight, kind, b->medium, b);
 }
 
-/* As branch_through. */
+/* branch_through for all lanes. */
 WIDE_VECTORS static inline void pack_branch_through(const struct tables *t, const struct pack_points *q, uint lanes,
                                                     struct vec3_16 d, const struct pack_split *s, struct vec3_16 weight,
                                                     packu kind, struct pack_branches *b)
@@ -285,7 +285,7 @@ WIDE_VECTORS static inline void pack_branch_through(const struct tables *t, cons
 	            select((packu)(SCENE_NONE), (packu)(material), pack_enters(&q->p)), b);
 }
 
-/* As glass_tint. from_vertices: as they are lit */
+/* glass_tint for all lanes. from_vertices: colours as lit at the vertices */
 static inline struct vec3_16 pack_tint(const struct tables *t, const struct pack_points *q,
                                        const struct pack_texturing *texturing, const struct vec4_16 *from_vertices)
 {
@@ -296,14 +296,14 @@ static inline struct vec3_16 pack_tint(const struct tables *t, const struct pack
 
 /* --- Ways that chance chooses ------------------------------------------------------------------------------------ */
 
-/* As sample_cosine. */
+/* sample_cosine for all lanes. */
 static inline struct vec3_16 pack_cosine(struct vec3_16 n, packf u, packf v, uint lanes)
 {
 	const packf radius = sqrt(u), turn = 6.283185307179586f * v;
 	packf right = 0, up = 0;
 	struct vec3_16 across, along;
 
-	for (uint left = lanes; left; left &= left - 1) { /* one by one: vectors of cosines have other last bits */
+	for (uint left = lanes; left; left &= left - 1) { /* one by one, since vector cosines differ in their last bits */
 		const uint lane = popcount((left & -left) - 1);
 
 		LANE(right, float, lane) = LANE(radius, const float, lane) * M_COS(LANE(turn, const float, lane));
@@ -314,8 +314,8 @@ static inline struct vec3_16 pack_cosine(struct vec3_16 n, packf u, packf v, uin
 }
 
 /*
- * As branch_one, of what is matte. No path is given a density: only surfaces that shine, which packs do not know, ask
- * for it. seed: of the paths. albedo: as light
+ * branch_one for matte surfaces. Paths get no density: only emissive surfaces need it, and packs do not support those.
+ * seed: of the paths. albedo: as light
  */
 static inline void pack_branch_scatter(const struct shade_hit_arguments *a, const struct pack_points *q, uint lanes,
                                        packu seed, struct vec3_16 albedo, struct vec3_16 weight, packu kind,

@@ -1,6 +1,6 @@
 /*
- * Sixteen points of one material lit where they are, instead of between lit vertices: what point_lit_here has for one,
- * by the same text (light_lanes.h). OpenCL C only.
+ * Lights sixteen points of one material at the points themselves instead of interpolating between lit vertices:
+ * point_lit_here for packs, using the same text (light_lanes.h). OpenCL C only.
  */
 #pragma once
 
@@ -14,7 +14,7 @@
 
 /* --- Colours ----------------------------------------------------------------------------------------------------- */
 
-/* The current colours (glColor) of the vertices of some lanes; of the others undefined. */
+/* The current colours (glColor) at the vertices of some lanes; undefined in the others. */
 static inline void pack_vertex_colors(const struct tables *t, const struct pack_list *list, const struct pack *p,
                                       uint lanes, struct vec4_16 *v)
 {
@@ -27,7 +27,7 @@ static inline void pack_vertex_colors(const struct tables *t, const struct pack_
 	}
 }
 
-/* As point_current_color. */
+/* point_current_color for all lanes. */
 static inline struct vec4_16 pack_current_color(const struct tables *t, const struct pack_list *list,
                                                 const struct pack *p, uint lanes)
 {
@@ -37,7 +37,7 @@ static inline struct vec4_16 pack_current_color(const struct tables *t, const st
 	return p->material->shade_model == GL_FLAT ? v[2] : v4_between(v[0], v[1], v[2], p->weight);
 }
 
-/* As point_matte_color. */
+/* point_matte_color for all lanes. */
 static inline struct vec4_16 pack_matte_color(const struct tables *t, const struct pack_list *list,
                                               const struct pack *p, uint lanes)
 {
@@ -48,7 +48,7 @@ static inline struct vec4_16 pack_matte_color(const struct tables *t, const stru
 
 /* --- Points ------------------------------------------------------------------------------------------------------ */
 
-/* The shares of a slot's light that reach some lanes, as stage_seen has them. */
+/* The visibility of a slot's light in some lanes, as in stage_seen. */
 static inline struct vec3_16 pack_seen(const struct shade_arguments *a, const struct pack_list *list, uint lanes,
                                        uint slot)
 {
@@ -68,8 +68,8 @@ static inline struct vec3_16 pack_seen(const struct shade_arguments *a, const st
 }
 
 /*
- * As point_lit_here, for surfaces that rules light anew (scene_surface.relit).
- * a: tables, and the visibility of the lights where there are n_slots
+ * point_lit_here, for surfaces that rules relight (scene_surface.relit). a: tables, and the lights' visibility if
+ * n_slots is not 0
  */
 static inline void pack_lit_here(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p,
                                  const struct pack_surface *s, uint lanes, struct lit_16 *out)

@@ -1,7 +1,7 @@
 /*
- * Fragments of one material shaded by programs, sixteen lanes at once: what program.h and instructions.h have for a
- * fragment, in the same order of operations and to the same bits. OpenCL C only. Where a program asks nothing across
- * pixels a lane is a fragment, else four lanes are the quad of one.
+ * Runs fragment programs for fragments of one material, sixteen lanes at once: what program.h and instructions.h do for
+ * one fragment, in the same order of operations and with bit-identical results. OpenCL C only. If a program needs no
+ * values of neighbouring pixels, each lane is a fragment; otherwise four lanes are the quad of one.
  */
 #pragma once
 
@@ -10,13 +10,13 @@
 #include "kernels/frame/pack_surface.h"
 #include "kernels/gl/program.h"
 
-/* As struct program_run, for sixteen. */
+/* Sixteen of struct program_run. */
 struct pack_run {
-	uint wanted, killed, lanes, mask, steps, ended; /* bits: as there, a lane each */
+	uint wanted, killed, lanes, mask, steps, ended; /* masks as there, one bit per lane */
 	packf registers[SCENE_PROGRAM_REGISTERS];
 };
 
-/* Room for the run of either stage. */
+/* Storage for a run of either stage. */
 struct pack_runs {
 	struct pack_run fragments;
 	struct program_run vertices;
@@ -88,7 +88,7 @@ WIDE_VECTORS static inline void pack_keep(struct pack_run *run, uint place, pack
 	*r = mask == run->lanes ? v : select(*r, v, pack_mask(mask));
 }
 
-/* As program_fetch and program_store. */
+/* program_fetch and program_store for all lanes. */
 static inline void pack_fetch(struct pack_run *run, const struct program *program,
                               __global const struct scene_instruction *in)
 {
@@ -126,7 +126,7 @@ static inline void pack_store(struct pack_run *run, const struct program *progra
 	}
 }
 
-/* As program_turn. */
+/* program_turn for all lanes. */
 static inline uint pack_turn(struct pack_run *run, const struct program *program,
                              __global const struct scene_instruction *in, uint at)
 {
@@ -176,7 +176,7 @@ WIDE_VECTORS static inline void pack_compute(struct pack_run *run, const struct 
 
 /* --- Textures ---------------------------------------------------------------------------------------------------- */
 
-/* As program_sample; lanes are quads. */
+/* program_sample; lanes form quads. */
 static inline void pack_look_up(const struct tables *t, const struct pack *p,
                                 __global const struct scene_instruction *in, struct pack_run *run)
 {
@@ -218,7 +218,7 @@ static inline void pack_look_up(const struct tables *t, const struct pack *p,
 		pack_keep(run, in->to + i, out[i], run->mask);
 }
 
-/* As program_run_from and program_execute. */
+/* program_run_from and program_execute for all lanes. */
 static inline void pack_execute(const struct tables *t, const struct pack *p, const struct program *program,
                                 struct pack_run *run)
 {
@@ -240,7 +240,7 @@ static inline void pack_execute(const struct tables *t, const struct pack *p, co
 
 /* --- Inputs ------------------------------------------------------------------------------------------------------ */
 
-/* As program_light_corners and point_lit_between, lane by lane. */
+/* program_light_corners and point_lit_between, lane by lane. */
 static inline void pack_lit_by_program(const struct shade_arguments *a, const struct pack_list *list,
                                        const struct pack *p, uint lanes, struct pack_kept *kept,
                                        struct program_run *run, struct vec4_16 *color, struct vec4_16 *secondary)
@@ -263,7 +263,7 @@ static inline void pack_lit_by_program(const struct shade_arguments *a, const st
 	pack_lit_between(p, &lit, color, secondary);
 }
 
-/* Colours of fragments as their vertices are lit, with the lights' visibility where lights have been asked. */
+/* Colours of fragments from their lit vertices, with the lights' visibility once lights have been queried. */
 static inline void pack_lit(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p,
                             uint lanes, struct pack_kept *kept, struct program_run *run, struct vec4_16 *color,
                             struct vec4_16 *secondary)
@@ -278,7 +278,7 @@ static inline void pack_lit(const struct shade_arguments *a, const struct pack_l
 	}
 }
 
-/* As point_weights_at of triangles, at the lanes' pixels. */
+/* point_weights_at for triangles, at the lanes' pixels. */
 WIDE_VECTORS static inline void pack_weights_at(const struct tables *t, const struct pack *p, uint height,
                                                 packf *weight)
 {
@@ -303,7 +303,7 @@ WIDE_VECTORS static inline void pack_weights_at(const struct tables *t, const st
 		weight[i] *= sum;
 }
 
-/* Pixels as planes see them: from clip_origin, y from the top; w there. */
+/* Pixel positions for planes: from clip_origin, y from the top; and w there. */
 struct pack_places {
 	packf x, y, w;
 };
@@ -320,7 +320,7 @@ WIDE_VECTORS static inline struct pack_places pack_places(const struct pack *p)
 	return at;
 }
 
-/* As program_set_by_planes, of numbers n to m. row: the corners' */
+/* program_set_by_planes for numbers n to m. row: values at the corners */
 WIDE_VECTORS static inline void pack_set_by_planes(const struct pack *p, const struct pack_places *at, packf (*row)[4],
                                                    int n, int m, packf *to)
 {
@@ -332,7 +332,7 @@ WIDE_VECTORS static inline void pack_set_by_planes(const struct pack *p, const s
 	}
 }
 
-/* As program_texcoords. */
+/* program_texcoords for all lanes. */
 WIDE_VECTORS static inline void pack_input_texcoords(const struct shade_arguments *a, const struct pack_list *list,
                                                      const struct pack *p, uint lanes, struct pack_kept *kept,
                                                      uint inputs, const struct pack_places *at, struct pack_run *run)
@@ -350,7 +350,7 @@ WIDE_VECTORS static inline void pack_input_texcoords(const struct shade_argument
 	}
 }
 
-/* A number of the vertices' rows where the lanes are, as positions and fog have it. */
+/* Interpolate a number of the vertices' rows at the lanes' points, as for positions and fog. */
 WIDE_VECTORS static inline packf pack_weighted(const struct tables *t, const struct pack *p, uint four, int number)
 {
 	packf row[3][4];
@@ -360,7 +360,7 @@ WIDE_VECTORS static inline packf pack_weighted(const struct tables *t, const str
 	return row[0][number] * p->weight[0] + row[1][number] * p->weight[1] + row[2][number] * p->weight[2];
 }
 
-/* As program_position. */
+/* program_position for all lanes. */
 WIDE_VECTORS static inline void pack_input_position(const struct tables *t, const struct pack *p, uint height,
                                                     struct pack_run *run)
 {
@@ -380,7 +380,7 @@ static inline void pack_set_input(struct pack_run *run, uint input, struct vec4_
 	run->registers[4 * input + 3] = v.w;
 }
 
-/* As program_colors_by_weights. own_color, own_secondary: of the lanes that are fragments */
+/* program_colors_by_weights for all lanes. own_color, own_secondary: of the lanes that are fragments */
 WIDE_VECTORS static inline void pack_colors_by_weights(const struct tables *t, const struct pack *p, packi is_own,
                                                        const struct vec4_16 *own_color,
                                                        const struct vec4_16 *own_secondary, struct pack_run *run)
@@ -393,7 +393,7 @@ WIDE_VECTORS static inline void pack_colors_by_weights(const struct tables *t, c
 	run->registers[4 * SCENE_INPUT_FOG] = pack_weighted(t, p, PACK_NORMAL, 3);
 }
 
-/* As program_colors_by_planes. */
+/* program_colors_by_planes for all lanes. */
 WIDE_VECTORS static inline void pack_colors_by_planes(const struct shade_arguments *a, const struct pack_list *list,
                                                       const struct pack *p, uint lanes, struct pack_kept *kept,
                                                       uint inputs, const struct pack_places *at, struct pack_run *run)
@@ -421,7 +421,7 @@ WIDE_VECTORS static inline void pack_colors_by_planes(const struct shade_argumen
 	run->registers[4 * SCENE_INPUT_FOG + 3] = 1.0f;
 }
 
-/* Lanes become pixels of their fragments' quads, but for the fragments themselves. */
+/* Turn lanes into the other pixels of their fragments' quads. */
 WIDE_VECTORS static inline void pack_spread(const struct tables *t, uint height, packi is_own, struct pack *p)
 {
 	const packi k = PACK_LANES & 3;
@@ -434,7 +434,7 @@ WIDE_VECTORS static inline void pack_spread(const struct tables *t, uint height,
 		p->weight[i] = select(weight[i], p->weight[i], is_own);
 }
 
-/* As program_begin. */
+/* program_begin for all lanes. */
 static inline void pack_begin(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p,
                               const struct program *program, uint own, struct pack_run *run)
 {
@@ -463,7 +463,7 @@ static inline void pack_begin(const struct shade_arguments *a, const struct pack
 
 /* --- Fragments --------------------------------------------------------------------------------------------------- */
 
-/* Colours of some lanes, as struct shaded takes them. */
+/* Store the colours of some lanes in struct shaded. */
 static inline void pack_store_program(const struct shade_arguments *a, const struct pack_list *list,
                                       const struct pack *p, uint lanes, const struct vec4_16 *color)
 {
@@ -485,7 +485,7 @@ static inline void pack_store_program(const struct shade_arguments *a, const str
 	}
 }
 
-/* Fragments of which a vertex program has lit the vertices, for fixed function's fragment stage. */
+/* Fixed function's fragment stage for fragments whose vertices a vertex program has lit. */
 static inline void pack_fixed(const struct shade_arguments *a, const struct pack_list *list, struct pack *p, uint lanes,
                               struct pack_kept *kept, struct pack_runs *runs)
 {
@@ -499,8 +499,8 @@ static inline void pack_fixed(const struct shade_arguments *a, const struct pack
 }
 
 /*
- * Run a fragment program for the lanes of a pack. p: with the fragments' own places
- * own: the lanes that are fragments; the others, where a lane is one of a quad, see other pixels of the same triangle
+ * Run a fragment program for the lanes of a pack. p: with the fragments' own places own: the lanes that are fragments;
+ * if lanes form quads, the others are other pixels of the same triangle
  */
 static inline void pack_run_program(const struct shade_arguments *a, const struct pack_list *list, struct pack *p,
                                     uint own, const struct program *program, struct pack_kept *kept,
@@ -545,7 +545,7 @@ static inline void pack_run_program(const struct shade_arguments *a, const struc
 	pack_store_program(a, list, p, own & ~run->killed, &color);
 }
 
-/* Lane `to` becomes another list's lane `from`. */
+/* Copy lane `from` of another list to lane `to`. */
 static inline void pack_copy_lane(const struct pack_list *list, uint from, uint to, struct pack_list *out)
 {
 	out->item[to] = list->item[from];
@@ -557,13 +557,13 @@ static inline void pack_copy_lane(const struct pack_list *list, uint from, uint 
 	out->depth[to] = list->depth[from];
 }
 
-/* Which of its quad's four a pixel is. */
+/* Index of a pixel in its quad. */
 static inline uint pack_own(const struct shade_arguments *a, uint pixel)
 {
 	return (pixel % a->width & 1) + 2 * ((a->height - 1 - pixel / a->width) & 1);
 }
 
-/* pack_program where four lanes are the quad of a fragment. p: with material and view */
+/* pack_program for programs where four lanes are the quad of a fragment. p: with material and view */
 static inline uint pack_program_across(const struct shade_arguments *a, const struct pack_list *list, uint lanes,
                                        int unplaced, const struct program *program, struct pack_kept *kept,
                                        struct pack_runs *runs, struct pack *p)
@@ -581,7 +581,7 @@ static inline uint pack_program_across(const struct shade_arguments *a, const st
 		}
 		for (uint lane = 0; lane < PACK_SIZE; lane++)
 			pack_copy_lane(list, from[min(lane / 4, n - 1)], lane, &quads);
-		p->primitive = SCENE_NONE; /* programs have moved it */
+		p->primitive = SCENE_NONE; /* the program may have changed it */
 		own &= pack_place(a, &quads, 0xffff, unplaced, kept, p);
 		if (own)
 			pack_run_program(a, &quads, p, own, program, kept, runs);
@@ -592,9 +592,9 @@ static inline uint pack_program_across(const struct shade_arguments *a, const st
 }
 
 /*
- * program_item for fragments of one material that packs know: pack_knows_program.
- * unplaced: 1 where their weights and depths are still the camera's
- * @return the lanes that it has done: none of slivers
+ * program_item for fragments of one material for which pack_knows_program holds. unplaced: 1 if their weights and
+ * depths are still the camera's
+ * @return the lanes that are done: none in slivers
  */
 static inline uint pack_program(const struct shade_arguments *a, const struct pack_list *list, uint lanes, int unplaced,
                                 struct pack_kept *kept, struct pack_runs *runs)
@@ -617,8 +617,8 @@ static inline uint pack_program(const struct shade_arguments *a, const struct pa
 	return lanes;
 }
 
-/* Whether pack_program knows all that a material asks for. pack_knows_geometry has to know the fragments'
- * geometries. */
+/* Test whether pack_program supports everything that a material needs. pack_knows_geometry has to hold for the
+ * fragments' geometries. */
 static inline int pack_knows_program(const struct shade_arguments *a, __global const struct scene_material *m)
 {
 	return m->fragment_program || pack_is_plain(a, m);

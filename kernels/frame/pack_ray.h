@@ -1,5 +1,5 @@
 /*
- * Rays from sixteen fragments, and to lights: what point.h and shadow.h have for one, in the same order of operations.
+ * Rays from sixteen fragments, and to lights: what point.h and shadow.h do for one, in the same order of operations.
  * OpenCL C only.
  */
 #pragma once
@@ -11,7 +11,7 @@
 #include "kernels/frame/sample_lanes.h"
 #include "kernels/one_lanes.h"
 
-/* As point_ray_origin. back: against the rays that led to the fragments, length 1 */
+/* point_ray_origin for all lanes. back: opposite to the rays that led to the fragments, of length 1 */
 WIDE_VECTORS static inline struct vec3_16 pack_ray_origin(const packf *of_point, const struct pack_surface *s,
                                                           struct vec3_16 towards, struct vec3_16 back)
 {
@@ -34,7 +34,7 @@ WIDE_VECTORS static inline struct vec3_16 pack_ray_origin(const packf *of_point,
 	return v3_add(at, v3_scale(n, size));
 }
 
-/* As struct shadow_curve. */
+/* Sixteen of struct shadow_curve. */
 struct pack_curve {
 	packi smooth;
 	struct vec3_16 normal[3];
@@ -66,7 +66,7 @@ WIDE_VECTORS static inline void pack_curve_of(const struct tables *t, const stru
 	              (pack_min(pack_min(cosine[0], cosine[1]), cosine[2]) < -SHADOW_BOTH_SIDES));
 }
 
-/* As shadow_lit_weights. @return all ones where a corner faces the light */
+/* shadow_lit_weights for all lanes. @return all ones where a corner faces the light */
 WIDE_VECTORS static inline packi pack_lit_weights(const packf *of_point, const packf *cosine, packf *weight)
 {
 	const packi one = cosine[1] > cosine[0];
@@ -82,8 +82,8 @@ WIDE_VECTORS static inline packi pack_lit_weights(const packf *of_point, const p
 	return best > 0.0f;
 }
 
-/* As shadow_curve_origin, for lanes that are smooth; others start on their triangles. straight: what point_ray_origin
- * goes towards */
+/* shadow_curve_origin for smooth lanes; the other rays start on their triangles. straight: the direction for
+ * point_ray_origin */
 WIDE_VECTORS static inline struct vec3_16 pack_curve_origin(const struct pack_curve *c, const struct pack_surface *s,
                                                             const packf *of_point, struct vec3_16 to, int positional,
                                                             struct vec3_16 straight, struct vec3_16 back)
@@ -108,21 +108,21 @@ WIDE_VECTORS static inline struct vec3_16 pack_curve_origin(const struct pack_cu
 	return any_pack(~bent) ? v3_choose(bent, curved, pack_ray_origin(of_point, s, straight, back)) : curved;
 }
 
-/* Whether pack_light_rays knows all that a material asks for. */
+/* Test whether pack_light_rays supports everything that a material needs. */
 static inline int pack_knows_rays(__global const struct scene_material *m)
 {
 	return !(m->surface.hidden & (SCENE_CARD | SCENE_CREASED));
 }
 
-/* As point_lights: where a material's lights start. */
+/* point_lights: start of a material's lights. */
 static inline __global const struct scene_light *pack_lights_of(const struct tables *t,
                                                                 __global const struct scene_material *m)
 {
 	return t->lights + (m->surface.relit ? m->surface.light_first : m->light_first);
 }
 
-/* As stage_light_ray for a light without a size and a material of pack_knows_rays: rays[place[lane]] of the lanes that
- * want one. */
+/* stage_light_ray for a light without a size and a material for which pack_knows_rays holds; writes rays[place[lane]]
+ * for the lanes that need a ray. */
 static inline void pack_light_rays(const struct pack *p, const struct pack_surface *s, const struct pack_curve *curve,
                                    struct vec3_16 back, __global const struct scene_light *light, uint lanes,
                                    const uint *place, __global struct ray *rays)

@@ -1,9 +1,11 @@
-/* A unit's texture in the pixels of sixteen fragments, as texture_sample has it for one. OpenCL C only. */
+/* Samples of a unit's texture in the pixels of sixteen fragments, as in texture_sample. OpenCL C only. */
 #pragma once
 
 #include "kernels/frame/pack_ellipse.h"
 
-/* A unit's texture at coordinates s, t and r. slope: where texture_needs_slope. lanes, out: as of pack_sample */
+/*
+ * Sample a unit's texture at coordinates s, t and r. slope: set if texture_needs_slope. lanes, out: as in pack_sample
+ */
 WIDE_VECTORS static inline void pack_sample_at(const struct tables *tables, __global const struct scene_unit *unit,
                                                const packf *c, const struct pack_slope *slope, packi lanes, packf *out)
 {
@@ -24,11 +26,11 @@ WIDE_VECTORS static inline void pack_sample_at(const struct tables *tables, __gl
 }
 
 /*
- * A unit's texture in each lane's pixel.
+ * Sample a unit's texture in each lane's pixel.
  * @param w_inv     1 / w of the corners
- * @param texcoord  theirs, [3][4]
+ * @param texcoord  the corners' coordinates, [3][4]
  * @param row       from the top. middle: as in struct point_quad
- * @param lanes     that count: others' samples are undefined
+ * @param lanes     lanes to sample; the others are undefined
  * @param out       [4]
  */
 WIDE_VECTORS static inline void pack_sample(const struct tables *tables, __global const struct scene_unit *unit,

@@ -1,6 +1,7 @@
 /*
  * Colours of sixteen fragments of one material at once: what shade_item does for one, in the same order of operations
- * and to the same bits. OpenCL C only. pack_is_plain says which materials it knows; shade_item does the others.
+ * and with bit-identical results. OpenCL C only. pack_is_plain tests which materials are supported; shade_item handles
+ * the others.
  */
 #pragma once
 
@@ -13,7 +14,7 @@
 #include "kernels/gl/finish_lanes.h"
 #include "kernels/one_lanes.h"
 
-/* Whether pack_shade knows all that a material asks for. */
+/* Test whether pack_shade supports everything that a material needs. */
 static inline int pack_is_plain(const struct shade_arguments *a, __global const struct scene_material *m)
 {
 	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped &&
@@ -28,8 +29,8 @@ static inline int pack_is_plain(const struct shade_arguments *a, __global const 
 
 /* --- Colours ----------------------------------------------------------------------------------------------------- */
 
-/* Between the vertices' colours or secondary ones; under flat shading the last one's. four: PACK_COLOR or
- * PACK_SECONDARY */
+/* Interpolate the vertices' primary or secondary colours; under flat shading, take the last vertex's. four: PACK_COLOR
+ * or PACK_SECONDARY */
 WIDE_VECTORS static inline struct vec4_16 pack_between(const struct tables *t, const struct pack *p, uint four)
 {
 	const packu row = four + as_uint16(pack_side(p) & 1);
@@ -43,7 +44,7 @@ WIDE_VECTORS static inline struct vec4_16 pack_between(const struct tables *t, c
 	return v4_between(v[0], v[1], v[2], p->weight);
 }
 
-/* As point_lit_from_vertices; secondary colours only where they are looked at. */
+/* point_lit_from_vertices for all lanes; secondary colours only if they are used. */
 WIDE_VECTORS static inline void pack_lit_from_vertices(const struct tables *t, const struct pack *p,
                                                        struct vec4_16 *color, struct vec4_16 *secondary)
 {
@@ -68,7 +69,7 @@ WIDE_VECTORS static inline packu pack_lights(const struct tables *t, const struc
 	return lights;
 }
 
-/* A lane's triangle among those that are kept lit. is_lit: receives 1 where it has been lit by what is seen there */
+/* The cache entry for a lane's triangle. is_lit: receives 1 if it was already lit with the visibility seen there */
 static inline struct pack_lit *pack_keep_lit(const struct tables *t, const struct pack_list *list, const struct pack *p,
                                              uint lane, const struct vec3 *seen, struct pack_kept *kept, int *is_lit)
 {
@@ -103,7 +104,7 @@ static inline void pack_take_lit(const struct lit *lit, int flat, uint lane, str
 	}
 }
 
-/* As point_lit_between. */
+/* point_lit_between for all lanes. */
 static inline void pack_lit_between(const struct pack *p, const struct pack_corners_lit *lit, struct vec4_16 *color,
                                     struct vec4_16 *secondary)
 {
@@ -114,7 +115,7 @@ static inline void pack_lit_between(const struct pack *p, const struct pack_corn
 	                    v4_between(lit->secondary[0], lit->secondary[1], lit->secondary[2], p->weight);
 }
 
-/* Colours by the lights' visibility: each lane's triangle lit again, as setup_keep_lit does it. */
+/* Colours with the lights' visibility: each lane's triangle is lit again, as in setup_keep_lit. */
 static inline void pack_between_relit(const struct shade_arguments *a, const struct pack_list *list,
                                       const struct pack *p, uint lanes, struct pack_kept *kept, struct vec4_16 *color,
                                       struct vec4_16 *secondary)
@@ -137,13 +138,13 @@ static inline void pack_between_relit(const struct shade_arguments *a, const str
 	pack_lit_between(p, &lit, color, secondary);
 }
 
-/* Textures at the fragments, and fog. */
+/* Texture samples at the fragments, and fog. */
 struct pack_texturing {
-	struct vec4_16 sample[SCENE_MAX_UNITS]; /* by GL's unit number */
+	struct vec4_16 sample[SCENE_MAX_UNITS]; /* indexed by GL's unit number */
 	packf fog;
 };
 
-/* Where the texture coordinates of the lanes' meshes start. is_uniform: all lie in the same triangle */
+/* Start of the texture coordinates of the lanes' meshes. is_uniform: all lanes are in the same triangle */
 static inline packu pack_texcoord_first(const struct tables *t, const struct pack_list *list,
                                         __global const struct scene_material *m, uint lanes, int is_uniform)
 {
@@ -159,7 +160,7 @@ static inline packu pack_texcoord_first(const struct tables *t, const struct pac
 	return first;
 }
 
-/* As point_fog for what pack_is_plain knows. */
+/* point_fog for materials for which pack_is_plain holds. */
 WIDE_VECTORS static inline packf pack_fog(const struct tables *t, const struct pack *p)
 {
 	__global const struct scene_material *m = p->material;
@@ -173,7 +174,7 @@ WIDE_VECTORS static inline packf pack_fog(const struct tables *t, const struct p
 	return fog_linear(m, c);
 }
 
-/* The lanes' vertices' numbers become those of their parts' corners. row: [3][4] */
+/* Replace the numbers at the lanes' vertices by those at their parts' corners. row: [3][4] */
 WIDE_VECTORS static inline void pack_cut_rows(const struct shade_arguments *a, const struct pack_list *list,
                                               const struct pack *p, uint lanes, struct pack_kept *kept, packf (*row)[4])
 {
@@ -225,7 +226,7 @@ WIDE_VECTORS static inline struct vec4_16 pack_finish_without(const struct table
 	return finish_in_fog(t, p->material, texturing->sample, &both, fog, without);
 }
 
-/* As point_finish. */
+/* point_finish for all lanes. */
 WIDE_VECTORS static inline struct vec4_16 pack_finish(const struct tables *t, const struct pack *p,
                                                       const struct pack_texturing *texturing, const struct vec4_16 *lit,
                                                       const struct vec4_16 *secondary)
@@ -233,7 +234,7 @@ WIDE_VECTORS static inline struct vec4_16 pack_finish(const struct tables *t, co
 	return pack_finish_without(t, p, texturing, lit, secondary, texturing->fog, 0);
 }
 
-/* As point_finish_relit. */
+/* point_finish_relit for all lanes. */
 WIDE_VECTORS static inline struct vec4_16 pack_finish_relit(const struct tables *t, const struct pack *p,
                                                             const struct pack_texturing *texturing,
                                                             const struct vec4_16 *lit, const struct vec4_16 *secondary)
@@ -241,7 +242,7 @@ WIDE_VECTORS static inline struct vec4_16 pack_finish_relit(const struct tables 
 	return pack_finish_without(t, p, texturing, lit, secondary, texturing->fog, p->material->surface.light_unit);
 }
 
-/* The colour that point_albedo_of starts from. from_vertices: as they are lit */
+/* The colour that point_albedo_of starts from. from_vertices: colours as lit at the vertices */
 static inline struct vec4_16 pack_matte(const struct tables *t, const struct pack_list *list, const struct pack *p,
                                         uint lanes, const struct vec4_16 *from_vertices)
 {
@@ -259,7 +260,7 @@ static inline struct vec4_16 pack_matte(const struct tables *t, const struct pac
 	return v4_clamp01(v4_between(v[0], v[1], v[2], p->weight));
 }
 
-/* As point_albedo_of. */
+/* point_albedo_of for all lanes. */
 static inline struct vec4_16 pack_albedo(const struct tables *t, const struct pack_list *list, const struct pack *p,
                                          uint lanes, const struct pack_texturing *texturing,
                                          const struct vec4_16 *from_vertices)
@@ -271,13 +272,13 @@ static inline struct vec4_16 pack_albedo(const struct tables *t, const struct pa
 
 /* --- Light that is followed -------------------------------------------------------------------------------------- */
 
-/* Whether light has a part in the colour of a material's points. pack_knows_geometry knows their geometries. */
+/* Test whether lighting affects the colour of a material's points. pack_knows_geometry holds for their geometries. */
 static inline int pack_takes_light(__global const struct scene_material *m)
 {
 	return (m->lighting || m->surface.relit) && !(m->surface.hidden & SCENE_UNSHADED);
 }
 
-/* As stage_radiant_lights. */
+/* stage_radiant_lights for all lanes. */
 static inline packu pack_radiant_lights(const struct tables *t, const struct pack *p, const struct pack_surface *s)
 {
 	__global const struct scene_material *m = p->material;
@@ -299,9 +300,8 @@ static inline packu pack_radiant_lights(const struct tables *t, const struct pac
 }
 
 /*
- * As stage_radiance.
- * from_vertices, secondary: as they are lit
- * albedo: receives point_albedo as light, where the material takes any
+ * stage_radiance for all lanes. from_vertices, secondary: colours as lit at the vertices. albedo: receives point_albedo
+ * as light, if lighting affects the material
  */
 static inline struct vec3_16 pack_radiance(const struct shade_arguments *a, const struct pack_list *list,
                                            const struct pack *p, const struct pack_surface *s, uint lanes,
@@ -349,7 +349,7 @@ static inline void pack_store_relit(__global struct shaded *out, uint lane, cons
 	stage_store_direct(out, v3(d.x, d.y, d.z));
 }
 
-/* pack_direct where light is followed. from_vertices, secondary: as they are lit */
+/* pack_direct for light transport. from_vertices, secondary: colours as lit at the vertices */
 static inline struct vec4_16 pack_direct_light(const struct shade_arguments *a, const struct pack_list *list,
                                                const struct pack *p, uint lanes, const struct pack_texturing *texturing,
                                                const struct vec4_16 *from_vertices, const struct vec4_16 *secondary,
@@ -367,9 +367,8 @@ static inline struct vec4_16 pack_direct_light(const struct shade_arguments *a, 
 }
 
 /*
- * As stage_relit, with the emission.
- * color: by GL's own lighting
- * lights: of vertices; receives those that light the points where rules light them anew
+ * stage_relit with the emission. color: from GL's own lighting. lights: of the vertices; receives the lights of the
+ * points if rules relight them
  */
 static inline struct vec4_16 pack_direct(const struct shade_arguments *a, const struct pack_list *list,
                                          const struct pack *p, uint lanes, const struct pack_texturing *texturing,
@@ -391,8 +390,8 @@ static inline struct vec4_16 pack_direct(const struct shade_arguments *a, const 
 }
 
 /*
- * shade_item for fragments of one material, a plain one, and geometries that pack_knows_geometry.
- * @return the lanes that it has done: none of slivers
+ * shade_item for fragments of one plain material, and of geometries for which pack_knows_geometry holds.
+ * @return the lanes that are done: none in slivers
  */
 static inline uint pack_shade(const struct shade_arguments *a, const struct pack_list *list, uint lanes,
                               struct pack_kept *kept)

@@ -1,17 +1,17 @@
 /*
- * Where sixteen fragments lie in eye space: what point.h has for one, in the same order of operations. OpenCL C only.
+ * Eye-space positions of sixteen fragments: what point.h does for one, in the same order of operations. OpenCL C only.
  */
 #pragma once
 
 #include "kernels/frame/pack.h"
 
-/* The fragments' triangles in eye space, as struct point_plane. */
+/* The fragments' triangles in eye space, as in struct point_plane. */
 struct pack_surface {
 	struct vec3_16 corner[3], plane;  /* plane: point_plane_normal */
-	packf length[3], area, rounding;  /* once pack_measure has found them */
+	packf length[3], area, rounding;  /* set by pack_measure */
 };
 
-/* The corners, homogeneous. @return the lanes in which not all have w = 1 */
+/* The corners, homogeneous. @return the lanes where some corner has w != 1 */
 WIDE_VECTORS static inline packi pack_eyes(const struct tables *t, const struct pack *p, packf (*e)[4])
 {
 	for (int k = 0; k < 3; k++)
@@ -19,7 +19,7 @@ WIDE_VECTORS static inline packi pack_eyes(const struct tables *t, const struct 
 	return (e[0][3] != 1.0f) | (e[1][3] != 1.0f) | (e[2][3] != 1.0f);
 }
 
-/* As point_corner_about, for the lanes `which`. */
+/* point_corner_about for the lanes `which`. */
 WIDE_VECTORS static inline void pack_corners_about(const struct pack *p, packf (*e)[4], packi which,
                                                    struct vec3_16 *corner)
 {
@@ -35,7 +35,7 @@ WIDE_VECTORS static inline void pack_corners_about(const struct pack *p, packf (
 		                      corner[k]);
 }
 
-/* From pack_eyes. */
+/* Build the surface from pack_eyes. */
 WIDE_VECTORS static inline void pack_surface_through(const struct pack *p, packf (*e)[4], packi bent,
                                                       struct pack_surface *out)
 {
@@ -57,14 +57,14 @@ WIDE_VECTORS static inline void pack_surface(const struct tables *t, const struc
 	pack_surface_through(p, e, bent, out);
 }
 
-/* As point_place. */
+/* point_place for all lanes. */
 WIDE_VECTORS static inline struct vec3_16 pack_place_at(const struct pack_surface *s, const packf *weight)
 {
 	return v3_add(v3_add(v3_scale(s->corner[0], weight[0]), v3_scale(s->corner[1], weight[1])),
 	              v3_scale(s->corner[2], weight[2]));
 }
 
-/* The vertices' normals at the points, length 1 or 0. */
+/* The vertices' normals interpolated at the points, of length 1 or 0. */
 WIDE_VECTORS static inline struct vec3_16 pack_vertex_normals(const struct tables *t, const struct pack *p)
 {
 	struct vec3_16 v[3];
@@ -78,7 +78,7 @@ WIDE_VECTORS static inline struct vec3_16 pack_vertex_normals(const struct table
 	return v3_normalize(v3_add(v3_add(v[0], v[1]), v[2]));
 }
 
-/* The same on the side of n; n where they have none. */
+/* The same on the side of n; n in lanes that have none. */
 WIDE_VECTORS static inline struct vec3_16 pack_smooth_normal(const struct tables *t, const struct pack *p,
                                                              struct vec3_16 n)
 {
@@ -88,7 +88,7 @@ WIDE_VECTORS static inline struct vec3_16 pack_smooth_normal(const struct tables
 	return v3_choose(v3_dot(smooth, smooth) > 0.0f, smooth, n);
 }
 
-/* As point_normal. */
+/* point_normal for all lanes. */
 WIDE_VECTORS static inline struct vec3_16 pack_normal(const struct tables *t, const struct pack *p,
                                                       const struct pack_surface *s)
 {
@@ -98,7 +98,7 @@ WIDE_VECTORS static inline struct vec3_16 pack_normal(const struct tables *t, co
 	return p->material->lighting || p->material->program_normals ? pack_smooth_normal(t, p, n) : n;
 }
 
-/* As stage_view_direction. */
+/* stage_view_direction for all lanes. */
 WIDE_VECTORS static inline struct vec3_16 pack_view_direction(const struct pack *p, uint height)
 {
 	__global const float *v = p->view->viewport, *m = p->view->inverse;
@@ -114,7 +114,7 @@ WIDE_VECTORS static inline struct vec3_16 pack_view_direction(const struct pack 
 	             far[2] * near[3] - near[2] * far[3]);
 }
 
-/* Lengths, area and rounding of the triangles. */
+/* Compute the triangles' edge lengths, area and rounding. */
 WIDE_VECTORS static inline void pack_measure(const struct pack *p, struct pack_surface *s)
 {
 	const struct vec3_16 edge[3] = { v3_sub(s->corner[2], s->corner[1]), v3_sub(s->corner[0], s->corner[2]),

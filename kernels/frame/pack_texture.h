@@ -1,9 +1,9 @@
 /*
- * Planes over sixteen triangles at once, a lane each, and samples of one texture there: as kernels/gl/clip.h and
- * texture.h have them for one, in the same order of operations. OpenCL C only.
+ * Planes over sixteen triangles at once, one per lane, and samples of one texture there: what kernels/gl/clip.h and
+ * texture.h do for one, in the same order of operations. OpenCL C only.
  *
- * The textures are those that most programs use (pack_knows_texture): images of four bytes a texel, without a border,
- * repeated or clamped to their edge; of two dimensions, or of three and one level.
+ * Supports the textures that most programs use (pack_knows_texture): images of four bytes per texel, without a border,
+ * repeated or clamped to their edge, either two-dimensional or three-dimensional with one level.
  */
 #pragma once
 
@@ -16,7 +16,7 @@
 #include "kernels/gl/texture_lanes.h"
 #include "kernels/one_lanes.h"
 
-/* All lanes of a mask. */
+/* Expand a bit mask to all lanes. */
 static inline packi pack_mask(uint lanes)
 {
 	return ((packi)((int)lanes) >> PACK_LANES & 1) != 0;
@@ -24,7 +24,7 @@ static inline packi pack_mask(uint lanes)
 
 /* --- Planes ------------------------------------------------------------------------------------------------------ */
 
-/* As struct clip_edges; area: clip_place_area */
+/* Sixteen of struct clip_edges; area: clip_place_area */
 struct pack_edges {
 	packi turned;
 	packf area, x, y, dx01, dy01, dx20, dy20, one_over_area;
@@ -82,9 +82,9 @@ static inline int pack_knows_texture(const struct tables *t, __global const stru
 	       (nearest || linear || (unit->max_anisotropy > 1.0f && unit->min_filter != GL_NEAREST));
 }
 
-/* A unit's texture where it is looked at: of each lane a level, and what of it. */
+/* The level of a unit's texture that each lane samples, and its size and data. */
 struct pack_level {
-	packu first;        /* where its texels start */
+	packu first;        /* start of its texels */
 	packi width, height;
 };
 
@@ -100,7 +100,7 @@ WIDE_VECTORS static inline struct pack_level pack_level(__global const struct te
 	return out;
 }
 
-/* Two texels side by side and the weight of the second, as texture_wrap_8. */
+/* Two adjacent texels and the weight of the second, as in texture_wrap_8. */
 WIDE_VECTORS static inline void pack_wrap_8(uint wrap, packf s, packi n, packi *i0, packi *i1, packu *weight)
 {
 	const packi power_of_two = (n & (n - 1)) == 0;
@@ -115,7 +115,7 @@ WIDE_VECTORS static inline void pack_wrap_8(uint wrap, packf s, packi n, packi *
 	if (wrap == GL_REPEAT) {
 		const packi inside = select(place, place + n, place < 0);
 
-		/* clamped: coordinates may be no numbers */
+		/* clamped, since coordinates may be NaN */
 		*i0 = clamp(select(select(inside, inside - n, inside >= n), place & (n - 1), power_of_two), (packi)(0), n - 1);
 		*i1 = select((packi)(0), *i0 + 1, *i0 + 1 < n);
 	} else {
@@ -124,7 +124,7 @@ WIDE_VECTORS static inline void pack_wrap_8(uint wrap, packf s, packi n, packi *
 	}
 }
 
-/* As texture_wrap for nearest filtering. */
+/* texture_wrap for nearest filtering. */
 WIDE_VECTORS static inline packi pack_wrap_nearest(uint wrap, packf s, int n)
 {
 	packi place;
@@ -137,7 +137,8 @@ WIDE_VECTORS static inline packi pack_wrap_nearest(uint wrap, packf s, int n)
 	if (!(n & (n - 1)))
 		return place & (n - 1);
 	place = select(place, place + n, place < 0);
-	return clamp(select(place, place - n, place >= n), (packi)(0), (packi)(n - 1)); /* coordinates may be no numbers */
+	return clamp(select(place, place - n, place >= n), (packi)(0), (packi)(n - 1)); /* clamped, since coordinates may be
+                                                                                     * NaN */
 }
 
 WIDE_VECTORS static inline packu pack_texels(__global const uint *texels, packu place)
@@ -145,7 +146,7 @@ WIDE_VECTORS static inline packu pack_texels(__global const uint *texels, packu 
 	return PACK_WORDS(texels, place);
 }
 
-/* As texture_level_8. c: coordinates s and t, and r of an image of three dimensions */
+/* texture_level_8 for all lanes. c: coordinates s and t, and r for a three-dimensional image */
 WIDE_VECTORS static inline packu pack_level_8(const struct tables *t, __global const struct scene_unit *unit,
                                               const struct pack_level *l, const packf *c)
 {
@@ -172,7 +173,7 @@ WIDE_VECTORS static inline packu pack_level_8(const struct tables *t, __global c
 	return n == 2 ? texture_mix_8(texel[0], texel[1], wz) : texel[0];
 }
 
-/* The nearest texels of level 0. c: as of pack_level_8 */
+/* The nearest texels of level 0. c: as in pack_level_8 */
 WIDE_VECTORS static inline packu pack_nearest(const struct tables *t, __global const struct scene_unit *unit,
                                               const packf *c)
 {
@@ -190,7 +191,7 @@ struct pack_coords {
 	struct pack_plane plane[4], w_inv;
 };
 
-/* out: so many of s, t and r, divided by q */
+/* out: the first n of s, t and r, divided by q */
 WIDE_VECTORS static inline void pack_coords_at(const struct pack_coords *c, packf x, packf y, int n, packf *out)
 {
 	const packf w = 1.0f / pack_plane_at(&c->w_inv, x, y), q = 1.0f / (pack_plane_at(&c->plane[3], x, y) * w);
@@ -199,12 +200,12 @@ WIDE_VECTORS static inline void pack_coords_at(const struct pack_coords *c, pack
 		out[i] = pack_plane_at(&c->plane[i], x, y) * w * q;
 }
 
-/* As struct texture_slope, of two coordinates. */
+/* Sixteen of struct texture_slope, for two coordinates. */
 struct pack_slope {
 	packf right_s, right_t, down_s, down_t;
 };
 
-/* As texture_slope for a quad of pixels. */
+/* texture_slope for a quad of pixels. */
 WIDE_VECTORS static inline void pack_slope_of(__global const struct texture_image *image,
                                               const struct pack_coords *coords, packi x, packi row, float middle,
                                               struct pack_slope *slope)
@@ -221,7 +222,7 @@ WIDE_VECTORS static inline void pack_slope_of(__global const struct texture_imag
 	slope->down_t = (down[1] - at[1]) * (float)image->height;
 }
 
-/* As texture_lod. */
+/* texture_lod for all lanes. */
 WIDE_VECTORS static inline packf pack_lod(__global const struct scene_unit *unit, const struct pack_slope *slope,
                                           int anisotropic)
 {
@@ -234,7 +235,7 @@ WIDE_VECTORS static inline packf pack_lod(__global const struct scene_unit *unit
 	return fmin(fmax(texture_half_log2(rho2) + unit->lod_bias, (packf)(unit->min_lod)), (packf)(unit->max_lod));
 }
 
-/* Linear filtering: one or two levels a lane. c: as of pack_level_8 */
+/* Linear filtering: one or two levels per lane. c: as in pack_level_8 */
 WIDE_VECTORS static inline packu pack_filter(const struct tables *t, __global const struct texture_image *image,
                                              __global const struct scene_unit *unit, packf lod, const packf *c)
 {

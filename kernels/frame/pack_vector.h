@@ -1,4 +1,4 @@
-/* Numbers and vectors of sixteen places, a lane each. OpenCL C only. */
+/* Sixteen-lane numbers and vectors. OpenCL C only. */
 #pragma once
 
 #include "kernels/common.h"
@@ -6,7 +6,7 @@
 
 #define LANE(vector, type, lane) (((type *)&(vector))[lane])
 
-/* What rint and floor do; PoCL's own take twenty instructions. From 2^23 on numbers have no fraction. */
+/* rint and floor; PoCL's own take twenty instructions. From 2^23 on, floats have no fraction. */
 WIDE_VECTORS static inline packf pack_round(packf x)
 {
 	const packf size = fabs(x), rounded = (size + 0x1p23f) - 0x1p23f;
@@ -29,7 +29,7 @@ struct vec4_16 {
 	packf x, y, z, w;
 };
 
-/* One of a vector's numbers, 0 to 3 */
+/* Component i, 0 to 3, of a vector. */
 #define CHANNEL(vector, i) ((&(vector).x)[i])
 
 WIDE_VECTORS static inline struct vec3_16 v3_16(packf x, packf y, packf z)
@@ -74,7 +74,7 @@ WIDE_VECTORS static inline struct vec4_16 v4_choose(packi mask, struct vec4_16 y
 	             select(no.w, yes.w, mask));
 }
 
-/* One place of sixteen. */
+/* A single lane of sixteen. */
 static inline struct vec4 v4_lane(const struct vec4_16 *v, uint lane)
 {
 	return v4(LANE(v->x, const float, lane), LANE(v->y, const float, lane), LANE(v->z, const float, lane),

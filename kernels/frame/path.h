@@ -1,19 +1,19 @@
 /*
- * One work item of each kernel that follows light beyond GL: mirrored, bent by glass, scattered from surface to
- * surface. From the list of fragments (kernels/gl/stages.h) and on lists of paths (struct path). A path's next rays are
- * written apart, so many places each, and gathered into the next list in the order of their paths: the paths of a
- * fragment stay side by side, and sums do not depend on scheduling.
+ * One work item of each kernel that follows light beyond GL: mirrored, refracted, or scattered from surface to surface.
+ * They work on the list of fragments (kernels/gl/stages.h) and on lists of paths (struct path). A path's next rays are
+ * first written to a fixed number of places per path, then gathered into the next list in the order of their paths. So
+ * the paths of a fragment stay adjacent, and sums do not depend on scheduling.
  */
 #pragma once
 
 #include "kernels/frame/emitter.h"
 
-/* Less of a pixel than this is not followed: a quarter of a step of 8 bits. */
+/* Smallest share of a pixel that is followed: a quarter of an 8-bit step. */
 #define PATH_LEAST 0.0009765625f
-/* In mode path those that carry less than this go on by chance, and count as this (Russian roulette). */
+/* In mode path, paths that carry less than this survive at random, and then count as this (Russian roulette). */
 #define PATH_ROULETTE 0.0625f
 
-/* gather_paths: next rays to their places in the new list. */
+/* gather_paths: moves next rays to their places in the new list. */
 static inline void gather_paths_item(const struct gather_paths_arguments *a, uint32_t item)
 {
 	for (uint32_t i = 0u; i < a->counts[item]; i++) {
@@ -30,7 +30,7 @@ struct branches {
 	struct path from; /* the path that ends here */
 };
 
-/* The ways on from a fragment: none yet. */
+/* Start with no rays from a fragment. */
 static inline struct branches branches_of_fragment(GLOBAL struct ray *next_rays, GLOBAL struct path *next_paths,
                                                    uint32_t item)
 {
@@ -45,7 +45,7 @@ static inline struct branches branches_of_fragment(GLOBAL struct ray *next_rays,
 	return b;
 }
 
-/* The same from where a path ended. */
+/* The same at the end of a path. */
 static inline struct branches branches_of_path(struct path from, GLOBAL struct ray *next_rays,
                                                GLOBAL struct path *next_paths, uint32_t item)
 {
@@ -58,7 +58,7 @@ static inline struct branches branches_of_path(struct path from, GLOBAL struct r
 	return b;
 }
 
-/* The next place of the list, its ray still to be written, or NULL: too little to be followed. */
+/* Reserve the next place of the list; the caller writes its ray. NULL: the path carries too little to be followed. */
 static inline GLOBAL struct ray *branch(struct branches *b, struct vec3 weight, uint32_t kind, uint32_t medium)
 {
 	GLOBAL struct path *next = &b->paths[b->count];
@@ -74,7 +74,7 @@ static inline GLOBAL struct ray *branch(struct branches *b, struct vec3 weight, 
 	return &b->rays[b->count++];
 }
 
-/* A direction kept on the side of the surface where it belongs: smooth normals may send it into the plane. */
+/* A direction kept on the right side of the surface, since smooth normals may point it into the plane. */
 static inline struct vec3 branch_on_side(struct vec3 d, struct vec3 plane)
 {
 	float into = v3_dot(d, plane);
@@ -82,8 +82,8 @@ static inline struct vec3 branch_on_side(struct vec3 d, struct vec3 plane)
 	return into < 0.0f ? v3_normalize(v3_sub(d, v3_scale(plane, 1.001f * into))) : d;
 }
 
-/* The normal that a mirror turns rays about: of a near one the surface's own, if it has any, also where GL does not
- * light it. */
+/* The normal that a mirror reflects about. For a near mirror, the surface's own normal if it has one, even if GL does
+ * not light it. */
 static inline struct vec3 branch_normal(const struct point *p)
 {
 	struct vec3 n = point_normal(p), smooth;
@@ -99,7 +99,7 @@ static inline struct vec3 branch_normal(const struct point *p)
 	return v3_dot(smooth, n) < 0.0f ? v3_scale(smooth, -1.0f) : smooth;
 }
 
-/* Which numbers the ways on from a point are chosen by (sample_take). */
+/* Sample numbers for choosing the next rays from a point (sample_take). */
 struct branch_samples {
 	uint32_t frame, seed, index;
 };
@@ -123,8 +123,7 @@ static inline void branch_mirror(struct branches *b, const struct point *p, stru
 	stage_ray(p, branch_on_side(away, plane), d, ray);
 }
 
-/* What a surface does with light that arrives along d: shares that it mirrors and lets through; the rest it
- * scatters. */
+/* How a surface splits light that arrives along d: the shares that it mirrors and transmits; the rest is scattered. */
 struct split {
 	float mirrored, through, base;
 	float eta, cosine, cosine_beyond;
@@ -149,7 +148,7 @@ static inline struct split split_light(const struct point *p, struct vec3 d)
 	return s;
 }
 
-/* Through the surface, bent (Snell). */
+/* Through the surface, refracted (Snell). */
 static inline void branch_through(struct branches *b, const struct point *p, struct vec3 d, const struct split *s,
                                   struct vec3 weight, uint32_t kind)
 {
@@ -186,7 +185,7 @@ static inline struct vec3 path_weight(const struct path *path)
 	return v3(path->weight[0], path->weight[1], path->weight[2]);
 }
 
-/* A part of a fragment and the light of one of its paths. What brings no light changes no bit. */
+/* Add the light of one path to a part of a fragment. A path without light changes no bit. */
 static inline void credit_part(uint32_t transport, GLOBAL float *part, struct vec3 light)
 {
 	const struct vec3 was = v3_load(part);
@@ -247,7 +246,10 @@ static inline void leave_item(const struct leave_arguments *a, uint32_t item)
 	a->counts[item] = b.count;
 }
 
-/* sky_ray: what hit nothing looks on from the viewer's place: skies are drawn around that, and mean infinity. */
+/*
+ * sky_ray: paths that hit nothing continue from the viewer's position, since skies are drawn around the viewer and
+ * represent infinity.
+ */
 static inline void sky_ray_item(const struct sky_ray_arguments *a, uint32_t item)
 {
 	stage_no_ray(&a->out[item]);
@@ -259,7 +261,7 @@ static inline void sky_ray_item(const struct sky_ray_arguments *a, uint32_t item
 }
 
 
-/* want_lights: what lights a path's hit must ask for. */
+/* want_lights: finds the lights whose visibility a path's hit needs. */
 static inline void want_lights_item(const struct want_lights_arguments *a, uint32_t item)
 {
 	const struct tables *t = &a->tables;
@@ -273,7 +275,7 @@ static inline void want_lights_item(const struct want_lights_arguments *a, uint3
 	a->wanted[item] = stage_wanted(&p, stage_lights(t, &p, a->transport, point_lit_from_vertices(&p).lights));
 }
 
-/* The colour of a path's hit, with the visibility of its lights. */
+/* The colour of a path's hit, with its lights' visibility. */
 static inline struct vec4 hit_color(const struct tables *t, const struct point *p, const struct texturing *texturing,
                                     uint32_t transport, const struct vec3 *seen, int dimmed)
 {
@@ -287,8 +289,8 @@ static inline struct vec4 hit_color(const struct tables *t, const struct point *
 	return v4(c.x, c.y, c.z, color.w);
 }
 
-/* The light where nothing was hit: the sky's surface, if there is one, or the colour that the frame was cleared
- * with. */
+/* Light of a path that hit nothing: the sky's surface if there is one, else the colour that the frame was cleared
+ * to. */
 static inline struct vec3 hit_nothing(const struct tables *t, uint32_t transport, GLOBAL const struct hit *sky,
                                       GLOBAL const struct ray *ray, uint32_t has_sky, GLOBAL const float *background)
 {
@@ -308,7 +310,7 @@ static inline struct vec3 hit_nothing(const struct tables *t, uint32_t transport
 	return stage_light(transport, v3(color.x, color.y, color.z));
 }
 
-/* Onwards past a surface that does not stop the ray: nothing is bent, and it is no bounce. */
+/* Continue past a surface that does not stop the ray, without refraction and without counting a bounce. */
 static inline void branch_on(struct branches *b, GLOBAL const struct ray *from, float t, struct vec3 weight)
 {
 	GLOBAL struct ray *ray = branch(b, weight, b->from.kind, b->from.medium);
@@ -321,7 +323,7 @@ static inline void branch_on(struct branches *b, GLOBAL const struct ray *from, 
 	ray->t_min = ray_beyond(t);
 }
 
-/* Whether a path goes on. weight: what it carries; where it is little, more in turn. chance: [0,1) */
+/* Test whether a path continues. weight: what it carries; increased if the path survives roulette. chance: [0,1) */
 static inline int branch_survives(struct vec3 *weight, float chance)
 {
 	const float share = v3_most(*weight) / PATH_ROULETTE;
@@ -334,9 +336,7 @@ static inline int branch_survives(struct vec3 *weight, float chance)
 	return 1;
 }
 
-/*
- * One of the ways on, as often as it carries light. What depth allows is the caller's question.
- */
+/* Choose one of the possible rays, in proportion to the light it carries. The caller checks the depth limit. */
 static inline void branch_one(const struct tables *t, uint32_t transport, struct branches *b, const struct point *p,
                               struct vec3 d, const struct split *s, const struct texturing *texturing,
                               struct vec3 weight, const struct branch_samples *at)
@@ -360,8 +360,8 @@ static inline void branch_one(const struct tables *t, uint32_t transport, struct
 	}
 }
 
-/* What a path found, within bounds where a surface scattered it or it bounced twice: few samples of much light would
- * leave bright dots. */
+/* Light that a path found, bounded if a surface scattered the path or it bounced twice. Rare samples of much light
+ * would otherwise leave bright dots. */
 static inline struct vec3 hit_bound(const struct shade_hit_arguments *a, const struct path *path, struct vec3 light)
 {
 	const float most = v3_most(light);
@@ -371,8 +371,8 @@ static inline struct vec3 hit_bound(const struct shade_hit_arguments *a, const s
 	               light;
 }
 
-/* What surfaces that shine send a hit, and the part of its own shine that the point which the path comes from asked
- * for, less. */
+/* Light that emissive surfaces send to a hit, minus the part of its own emission that the path's previous point already
+ * sampled. */
 static inline struct vec3 hit_emitters(const struct shade_hit_arguments *a, uint32_t item, const struct point *p,
                                        const struct texturing *texturing, struct vec3 d)
 {
@@ -397,9 +397,7 @@ static inline struct vec3 hit_emitters(const struct shade_hit_arguments *a, uint
 	return v3_add(sum, v3_mul(seen, emitter_light(t, &a->emission, a->transport, p, d, &at)));
 }
 
-/*
- * shade_hit: what a path found, into radiance[item]; and the rays that go on from there.
- */
+/* shade_hit: writes what a path found to radiance[item], and the rays that continue from there. */
 static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t item)
 {
 	const struct tables *t = &a->tables;
@@ -440,7 +438,7 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 	if (b.from.medium != SCENE_NONE)
 		weight = v3_mul(weight, glass_absorb(&t->materials[b.from.medium], hit.t - a->rays[item].t_min));
 	split = split_light(&p, d);
-	if (p.material->surface.hidden & SCENE_NEAR_MIRROR) { /* it is seen in another one with its own colour */
+	if (p.material->surface.hidden & SCENE_NEAR_MIRROR) { /* in another mirror, it is seen with its own colour */
 		split.base += split.mirrored;
 		split.mirrored = 0.0f;
 	}
@@ -467,7 +465,10 @@ static inline void shade_hit_item(const struct shade_hit_arguments *a, uint32_t 
 	a->counts[item] = b.count;
 }
 
-/* credit: what the paths of a fragment found, into its parts. The first path of each fragment sums them up in order. */
+/*
+ * credit: adds what the paths of a fragment found to its parts. The item of each fragment's first path sums them in
+ * order.
+ */
 static inline void credit_item(const struct credit_arguments *a, uint32_t item)
 {
 	uint32_t target = a->paths[item].target;

@@ -1,16 +1,16 @@
 /*
- * Light that goes from a light to a mirror or glass and on (H. W. Jensen, "Global Illumination using Photon Maps",
- * 1996): one work item follows one photon from surface to surface. Its path's fields mean other things than those of an
- * eye's path:
+ * Light that travels from a light to a mirror or glass and beyond (H. W. Jensen, "Global Illumination using Photon
+ * Maps", 1996). One work item follows one photon from surface to surface. Some fields of its path differ from those of
+ * an eye path:
  *   target   the photon's number in its pass
- *   kind     the instance that it was sent to: one that meets another first is that one's own light, or stopped
- *   density  the length of its way so far
+ *   kind     the instance it was sent to; if it meets another first, it belongs to that one's photons or is stopped
+ *   density  length of its path so far
  */
 #pragma once
 
 #include "kernels/frame/path.h"
 
-/* The way on from where a photon came to: mirrored, bent, or none, as often as light goes there. */
+/* The next ray from where a photon landed: mirrored, refracted, or none, in proportion to the light in each. */
 static inline void photon_go_on(struct branches *b, const struct tables *t, const struct point *p,
                                 const struct texturing *texturing, struct vec3 d, const struct split *s,
                                 struct vec3 weight, uint32_t pass)

@@ -1,7 +1,7 @@
 /* plain, plain_shadow: see kernels/frame/plain.h. */
 #include "kernels/frame/plain_show.h"
 
-/* s: what packs and shade_item take, with visibility where lights have been asked */
+/* s: arguments for packs and shade_item, with visibility once lights have been queried */
 static inline void do_block(const struct plain_arguments *a, const struct shade_arguments *s, uint item)
 {
 	struct plain_empty empty = { SCENE_NONE };

@@ -1,73 +1,71 @@
 /*
- * plain, plain_shadow, plain_whole, plain_program: frames that are cleared and drawn once, each pixel showing its
- * nearest fragment as it is: no blending, no mirrors, no pixels from before. Their pixels go from what the camera found
- * to the planes of the picture in one step.
+ * plain, plain_shadow, plain_whole, plain_program: frames that are cleared and drawn once, where each pixel shows its
+ * nearest fragment unchanged: no blending, no mirrors, no earlier pixels. Pixels go from the camera's fragments to the
+ * picture's planes in one step.
  *
- * plain makes all planes without shadows, and a ray to each light that a fragment wants. plain_shadow makes planes
- * again where a light is dimmed. What they compute is what shade, resolve and compose do one after the other, to the
- * bit.
+ * plain makes all planes without shadows, and a ray to each light that a fragment needs. plain_shadow redoes the planes
+ * where a light is dimmed. The results are bit-identical to running shade, resolve and compose in sequence.
  *
- * Where light comes from all around (kernels/frame/dome.h), plain_dome sends all rays, and plain_shadow makes all
- * planes.
+ * If there is a dome (kernels/frame/dome.h), plain_dome sends all rays, and plain_shadow makes all planes.
  *
- * plain_program runs before each of them where programs have a say: it leaves their fragments' colours in a->shaded.
+ * If there are programs, plain_program runs before each of these and writes their fragments' colours to a->shaded.
  *
- * plain_whole does without rays, and looks for the fragments, too: camera_packet and plain in one.
+ * plain_whole is for frames without rays. It also finds the fragments: camera_packet and plain in one.
  *
- * GPUs do the same in steps: plain_color, plain_ask and plain_show in place of plain; plain_color_dimmed and
- * plain_show_dimmed in place of plain_shadow. They know neither light from all around nor programs.
+ * GPUs do the same in steps: plain_color, plain_ask and plain_show replace plain; plain_color_dimmed and
+ * plain_show_dimmed replace plain_shadow. These support neither a dome nor programs.
  *
- * Rays, and what is kept of fragments that are shaded one by one, stand block by block: PLAIN_WIDTH pixels of
- * PLAIN_ROWS rows of the band a work item.
+ * Rays, and the data of fragments that are shaded one by one, are stored block by block: one work item handles
+ * PLAIN_WIDTH pixels of PLAIN_ROWS rows of the band.
  */
 #pragma once
 
 #include "kernels/camera/camera.h"
 #include "kernels/frame/shadow.h"
 
-/** How many blocks stand side by side. */
+/** Number of blocks side by side. */
 static inline uint32_t plain_columns(uint32_t width)
 {
 	return (width + PLAIN_WIDTH - 1u) / PLAIN_WIDTH;
 }
 
-/* Where the pixels of a row of a block stand among rays, and what else stands block by block. place: the block's, or
+/* Index of a row of a block's pixels among rays and other data stored block by block. place: the block's, or
  * SCENE_NONE */
 static inline uint32_t plain_base(uint32_t place, uint32_t y)
 {
 	return place == SCENE_NONE ? SCENE_NONE : (place * PLAIN_ROWS + y % PLAIN_ROWS) * PLAIN_WIDTH;
 }
 
-/* The place of a block, by a pixel of the band that lies in it. */
+/* The place of the block that contains a pixel of the band. */
 static inline uint32_t plain_place(GLOBAL const uint32_t *blocks, uint32_t width, uint32_t x, uint32_t y)
 {
 	return blocks[y / PLAIN_ROWS * plain_columns(width) + x / PLAIN_WIDTH];
 }
 
 /*
- * layered, layered_shadow, layered_mirror: frames of several looks, each at one segment's fragments: one a pixel, or
- * columns of up to CAMERA_COLUMN_MAX. All are drawn one over the other, in draw order, blended and tested. What shade,
- * resolve and compose do one after the other comes out, to the bit. A block has as many places as a pixel in it has
- * fragments at most, look by look.
+ * layered, layered_shadow, layered_mirror: frames of several looks. Each look fetches one segment's fragments: one per
+ * pixel, or columns of up to CAMERA_COLUMN_MAX. All are tested and blended over each other in draw order, with results
+ * that are bit-identical to running shade, resolve and compose in sequence. For each look, a block has as many places
+ * as the largest number of fragments in any of its pixels.
  *
- * layered makes all planes without shadows and mirrors, and sends rays to lights. layered_shadow makes planes again
- * where a light is dimmed, and lists the fragments that mirror or let light through. layered_mirror makes the planes of
- * rows where these are, with what their paths found.
+ * layered makes all planes without shadows and mirrors, and sends rays to lights. layered_shadow redoes the planes
+ * where a light is dimmed, and lists the fragments that mirror or transmit light. layered_mirror makes the planes of
+ * rows with such fragments, including what their paths found.
  *
- * Where more fragments lie over each other than a work item keeps, they come in rounds of looks: all but the last leave
- * pixels for the next in place of planes. A frame that begins with a picture goes on from where layered_start has left
- * that. Where a picture as GL's frame buffer has it is asked for, no round makes planes: layered_picture takes what the
- * last has left. The kernels and their twins keep pixels each in a layout of their own.
+ * If more fragments overlap than a work item can hold, they are processed in rounds of looks: every round but the last
+ * passes pixels on to the next instead of making planes. A frame that begins with a picture continues from the pixels
+ * that layered_start prepared. If a picture in the format of GL's frame buffer is wanted, no round makes planes;
+ * layered_picture converts the last round's pixels. The kernels and their twins store pixels in different layouts.
  */
-#define PLAIN_LOOKS 8u   /* of a round, at most */
-#define PLAIN_LAYERS 16u /* fragments of a round over each other, at most */
-#define PLAIN_KEPT 31u   /* numbers that are kept of a pixel */
+#define PLAIN_LOOKS 8u   /* maximum in a round */
+#define PLAIN_LAYERS 16u /* maximum number of overlapping fragments in a round */
+#define PLAIN_KEPT 31u   /* numbers stored per pixel */
 
-/* What a round is: bits. */
-#define PLAIN_BEGINS 1u /* the first: pixels are as they were cleared */
-#define PLAIN_ENDS 2u   /* the last: planes are made */
-#define PLAIN_MIRRORED 4u /* light may have left fragments of an earlier one */
-#define PLAIN_UNKNOWN 8u  /* of one that begins: what colours were there before is not known */
+/* Properties of a round: bits. */
+#define PLAIN_BEGINS 1u /* the first round: pixels start from the clear values */
+#define PLAIN_ENDS 2u   /* the last round: planes are made */
+#define PLAIN_MIRRORED 4u /* light may have left fragments of an earlier round */
+#define PLAIN_UNKNOWN 8u  /* in a first round: the colours from before are not known */
 
 /* The three steps. */
 #define PLAIN_FIRST 0u
@@ -79,26 +77,26 @@ static inline uint32_t plain_slots(uint32_t columns, uint32_t look)
 	return columns >> look & 1u ? CAMERA_COLUMN_MAX : 1u;
 }
 
-/* Where the counts of a look begin, and by the number of its slots its fragments: no two looks' overlap. n_pixels: of
- * the band */
+/* Start of a look's counts and, times the number of its slots, of its fragments. No two looks overlap. n_pixels: of the
+ * band */
 static inline uint32_t plain_look_first(uint32_t columns, uint32_t look, uint32_t n_pixels)
 {
 	return look * n_pixels * (CAMERA_COLUMN_MAX / plain_slots(columns, look));
 }
 
-/* Where pixels of a row are kept; x: a multiple of PLAIN_WIDTH. */
+/* Index of a row's stored pixels; x: a multiple of PLAIN_WIDTH. */
 static inline uint32_t plain_kept(uint32_t width, uint32_t x, uint32_t y)
 {
 	return (y * plain_columns(width) * PLAIN_WIDTH + x) * PLAIN_KEPT;
 }
 
-/* How many blocks a band has. */
+/* Number of blocks in a band. */
 static inline uint32_t plain_blocks(uint32_t width, uint32_t height)
 {
 	return plain_columns(width) * ((height + PLAIN_ROWS - 1u) / PLAIN_ROWS);
 }
 
-/* The fragment of a pixel of the band; its order is SCENE_NONE where there is none. */
+/* The fragment of a pixel of the band; its order is SCENE_NONE if there is none. */
 static inline struct fragment plain_fragment(const struct plain_arguments *a, uint32_t x, uint32_t y)
 {
 	struct fragment none;
@@ -111,7 +109,7 @@ static inline struct fragment plain_fragment(const struct plain_arguments *a, ui
 	return a->sparse[y * a->width + x];
 }
 
-/* Where a pixel lies in the band, by its number: block by block. It may be beyond the last column or row. */
+/* Position in the band of a pixel number, counted block by block. It may be beyond the last column or row. */
 static inline uint32_t plain_x(uint32_t width, uint32_t number)
 {
 	return number / (PLAIN_WIDTH * PLAIN_ROWS) % plain_columns(width) * PLAIN_WIDTH + number % PLAIN_WIDTH;
@@ -132,13 +130,13 @@ static inline int plain_has_fragment(const struct plain_arguments *a, uint32_t x
 	return !plain_is_outside(a, x, y) && plain_fragment(a, x, y).order != SCENE_NONE;
 }
 
-/* Whether a light does not reach a pixel's fragment whole. item: its place */
+/* Test whether some light does not fully reach a pixel's fragment. item: its place */
 static inline int plain_is_dimmed(const struct plain_arguments *a, uint32_t x, uint32_t y, uint32_t item)
 {
 	return plain_has_fragment(a, x, y) && stage_dimmed(a->visibility, a->n_slots, a->n, item);
 }
 
-/* What shade_item takes, for fragments of a->fragments. n_slots: 0, or with visibility */
+/* Arguments of shade_item for fragments in a->fragments. n_slots: 0, or with visibility */
 static inline struct shade_arguments plain_shading(const struct plain_arguments *a, uint32_t n_slots)
 {
 	const struct shade_arguments s = {
@@ -151,7 +149,7 @@ static inline struct shade_arguments plain_shading(const struct plain_arguments 
 	return s;
 }
 
-/* What shadow_ray_item takes, for the same ones. */
+/* Arguments of shadow_ray_item for the same fragments. */
 static inline struct shadow_ray_arguments plain_rays(const struct plain_arguments *a)
 {
 	const struct shadow_ray_arguments s = {

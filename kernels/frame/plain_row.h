@@ -1,4 +1,4 @@
-/* Rows of sixteen pixels of a plain frame (kernels/frame/plain.h), as its kernels go through them. OpenCL C only. */
+/* Rows of sixteen pixels of a plain frame (kernels/frame/plain.h), as processed by its kernels. OpenCL C only. */
 #pragma once
 
 #include "kernels/frame/pack_compose.h"
@@ -6,26 +6,30 @@
 #include "kernels/frame/pack_shade.h"
 #include "kernels/frame/plain.h"
 
-/* Sixteen fragments of a row, one a pixel. */
+/* Sixteen fragments of a row, one per pixel. */
 struct plain_row {
 	struct pack_list list;
-	uint x, y, base; /* of the first pixel in the band; of its place among the rays, SCENE_NONE where the block has none */
-	uint dimmed;     /* a bit for each fragment that a light does not reach whole */
+	uint x, y, base; /* first pixel's position in the band; its index among the rays, SCENE_NONE if the block has
+                      * none */
+	uint dimmed;     /* a bit for each fragment that some light does not fully reach */
 };
 
 /* Their colours. */
 struct plain_colors {
-	struct vec4_16 gl, shadowed, direct, albedo;    /* albedo: where it is asked for */
-	int is_gl;                                      /* 1: shadowed and direct are gl, and not there */
+	struct vec4_16 gl, shadowed, direct, albedo;    /* albedo: only if requested */
+	int is_gl;                                      /* 1: shadowed and direct equal gl and are not set */
 };
 
-/* Whether packs know all that a material asks for; what they do not goes one by one. */
+/* Test whether packs support everything that a material needs; other fragments are shaded one by one. */
 static inline int plain_knows(const struct shade_arguments *s, __global const struct scene_material *m)
 {
 	return pack_is_plain(s, m) && pack_knows_rays(m);
 }
 
-/* The fragments of a row that lies in the rectangle, from records to rows. @return a bit for each pixel that has one */
+/*
+ * Transpose the fragments of a row that is entirely in the rectangle, from records to rows. @return a bit for each
+ * pixel that has one
+ */
 WIDE_VECTORS static inline uint load_whole_row(const struct plain_arguments *a, const struct plain_row *at,
                                                struct pack_list *list)
 {
@@ -66,8 +70,8 @@ static inline uint load_row(const struct plain_arguments *a, struct plain_row *r
 	return lanes;
 }
 
-/* A bit for each fragment of a row that a light does not reach whole. base: its place among the rays; lanes: those that
- * are there */
+/* A bit for each fragment of a row that some light does not fully reach. base: its index among the rays; lanes:
+ * existing fragments */
 static inline uint plain_dimmed(const struct plain_arguments *a, uint base, uint lanes)
 {
 	uint dimmed = 0;
@@ -82,8 +86,7 @@ static inline uint plain_dimmed(const struct plain_arguments *a, uint base, uint
 }
 
 /*
- * Row k of a block, but for its pixels.
- * n_slots: of lights whose visibility is there; 0: nothing is dimmed
+ * Load row k of a block, except for its pixels. n_slots: of lights whose visibility is known; 0: nothing is dimmed
  * @return a bit for each pixel that has a fragment
  */
 static inline uint plain_load_row(const struct plain_arguments *a, uint n_slots, uint block, uint k,
@@ -115,7 +118,7 @@ static inline struct fragment plain_row_fragment(const struct plain_row *row, ui
 	return f;
 }
 
-/* A colour of n numbers that plain_program has left for some lanes. from: the first lane's, in its struct shaded */
+/* Take a colour of n numbers that plain_program stored for some lanes. from: the first lane's, in its struct shaded */
 static inline void plain_take_color(__global const float *from, int n, uint lanes, struct vec4_16 *to)
 {
 	const uint step = sizeof(struct shaded) / sizeof(float);
@@ -128,7 +131,7 @@ static inline void plain_take_color(__global const float *from, int n, uint lane
 	}
 }
 
-/* Whether rules add no light to a material's colours (kernels/frame/pack_shade.h, pack_direct). */
+/* Test whether rules add no light to a material's colours (kernels/frame/pack_shade.h, pack_direct). */
 static inline int plain_adds_nothing(__global const struct scene_material *m)
 {
 	__global const float *e = m->surface.emission;
@@ -137,9 +140,8 @@ static inline int plain_adds_nothing(__global const struct scene_material *m)
 }
 
 /*
- * Colours of fragments of one material, which kept->last has placed.
- * s: with visibility where lights have been asked
- * lights: receives a bit for each that lights them
+ * Colours of fragments of one material, which kept->last has placed. s: with visibility once lights have been queried.
+ * lights: receives a bit for each light that lights them
  */
 static inline void plain_shade(const struct plain_arguments *a, const struct shade_arguments *s,
                                const struct plain_row *row, uint lanes, struct pack_kept *kept, packu *lights,
@@ -178,7 +180,7 @@ static inline void plain_shade(const struct plain_arguments *a, const struct sha
 	out->direct = pack_direct(s, &row->list, p, lanes, &texturing, &out->shadowed, lights);
 }
 
-/* Rays to the lights that light them. lights: a bit for each that does */
+/* Send rays to the lights that light them. lights: a bit for each */
 static inline void plain_send_rays(const struct plain_arguments *a, const struct plain_row *row, const struct pack *p,
                                    struct pack_surface *s, packu lights, uint lanes)
 {

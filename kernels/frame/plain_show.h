@@ -1,20 +1,20 @@
 /*
- * A row of sixteen pixels of a plain frame (kernels/frame/plain.h) at once, from fragments to planes, material by
- * material (kernels/frame/pack_shade.h); fragments that packs do not know go one by one. OpenCL C only.
+ * Takes a row of sixteen pixels of a plain frame (kernels/frame/plain.h) from fragments to planes, material by material
+ * (kernels/frame/pack_shade.h). Fragments that packs do not support are processed one by one. OpenCL C only.
  */
 #pragma once
 
 #include "kernels/frame/pack_blend.h"
 #include "kernels/frame/plain_row.h"
 
-/* A row of sixteen pixels on its way. */
+/* State of a row of sixteen pixels. */
 struct shown_row {
 	struct plain_row at;
 	struct pack_pixels pixels;
-	int is_gl; /* 1: the pixels' colours after gl are not there: they would be the same numbers */
+	int is_gl; /* 1: the pixels' colours after gl equal gl and are not set */
 };
 
-/* What is kept from one fragment to the next. */
+/* Kept from one fragment to the next. */
 struct plain_kept {
 	struct pack_kept pack;
 	struct setup_kept one;
@@ -22,7 +22,7 @@ struct plain_kept {
 	struct pack_encoded encoded;
 };
 
-/* Colours after gl are there from now on. */
+/* Set the colours after gl from now on. */
 WIDE_VECTORS static inline void spread_gl(struct shown_row *row)
 {
 	struct pack_pixels *p = &row->pixels;
@@ -32,7 +32,7 @@ WIDE_VECTORS static inline void spread_gl(struct shown_row *row)
 	row->is_gl = 0;
 }
 
-/* All pixels as they were cleared. */
+/* Set all pixels to the clear values. */
 WIDE_VECTORS static inline void clear_row(__global const struct frame_pixel *cleared, struct shown_row *row)
 {
 	struct pack_pixels *p = &row->pixels;
@@ -49,7 +49,7 @@ WIDE_VECTORS static inline void clear_row(__global const struct frame_pixel *cle
 
 /* --- Sixteen at once --------------------------------------------------------------------------------------------- */
 
-/* Which fragments show: those before what was cleared. */
+/* The fragments that are visible: those in front of the clear depth. */
 WIDE_VECTORS static inline packi shows(const struct plain_arguments *a, __global const struct scene_material *m,
                                        packf depth)
 {
@@ -57,7 +57,7 @@ WIDE_VECTORS static inline packi shows(const struct plain_arguments *a, __global
 	                     (packu)(a->cleared->depth));
 }
 
-/* Colours of lanes that show. */
+/* Store the colours of visible lanes. */
 WIDE_VECTORS static inline void put_colors(struct shown_row *row, const struct pack *p, const struct plain_colors *c,
                                            packi show)
 {
@@ -77,7 +77,7 @@ WIDE_VECTORS static inline void put_colors(struct shown_row *row, const struct p
 	pack_put(&to->depth, p->depth, show);
 }
 
-/* Where they are, and their draws. */
+/* Store their positions and draw numbers. */
 static inline void put_surface(const struct plain_arguments *a, struct shown_row *row, const struct pack *p,
                                const struct pack_surface *s, packi show)
 {
@@ -92,7 +92,7 @@ static inline void put_surface(const struct plain_arguments *a, struct shown_row
 	}
 }
 
-/* Fragments of one material. s: with visibility where lights have been asked. @return those that are done */
+/* Shade fragments of one material. s: with visibility once lights have been queried. @return the lanes that are done */
 static inline uint shade_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct shown_row *row,
                                uint lanes, struct pack_kept *kept)
 {
@@ -126,7 +126,7 @@ static inline uint shade_lanes(const struct plain_arguments *a, const struct sha
 
 /* --- One by one -------------------------------------------------------------------------------------------------- */
 
-/* A fragment as it is shaded, to its lane. */
+/* Store a shaded fragment in its lane. */
 static inline void put_one(const struct plain_arguments *a, struct shown_row *row, uint lane)
 {
 	__global const struct shaded *s = &a->shaded[row->at.base + lane];
@@ -194,7 +194,7 @@ static inline void shade_row(const struct plain_arguments *a, const struct shade
 	}
 }
 
-/* As dome_apply, to what is drawn of a row. */
+/* dome_apply for the drawn pixels of a row. */
 WIDE_VECTORS static inline void light_row(const struct plain_arguments *a, struct pack_pixels *p, uint base)
 {
 	const packi drawn = p->drawn > 0.0f;
@@ -215,7 +215,7 @@ WIDE_VECTORS static inline void light_row(const struct plain_arguments *a, struc
 	}
 }
 
-/* What its colours are at last. */
+/* Convert to the final colours. */
 WIDE_VECTORS static inline void finish_row(const struct plain_arguments *a, struct shown_row *row, uint lanes,
                                            int is_lit)
 {
@@ -231,14 +231,14 @@ WIDE_VECTORS static inline void finish_row(const struct plain_arguments *a, stru
 		p->mirrored[i] = p->beauty[i] = p->direct[i];
 }
 
-/* Where a row without fragments stands in the planes; SCENE_NONE: nowhere yet. */
+/* Index in the planes of a row without fragments; SCENE_NONE: there is none yet. */
 struct plain_empty {
 	uint at;
 };
 
 /*
- * A row that plain_row has been loaded for. s: what packs and shade_item take, with visibility where lights have been
- * asked lanes: a bit for each pixel that has a fragment is_lit: from all around
+ * Show a row loaded in plain_row. s: arguments for packs and shade_item, with visibility once lights have been queried
+ * lanes: a bit for each pixel that has a fragment is_lit: 1: by the dome
  */
 static inline void plain_show_row(const struct plain_arguments *a, const struct shade_arguments *s,
                                   struct shown_row *row, uint lanes, int is_lit, const struct pack_planes *to,

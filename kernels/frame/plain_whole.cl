@@ -1,11 +1,11 @@
 /*
- * plain_whole: see kernels/frame/plain.h. A tile's fragments go from where the camera keeps them to the planes: no
+ * plain_whole: see kernels/frame/plain.h. A tile's fragments go straight from the camera's storage to the planes, so no
  * record of a pixel leaves the work item.
  */
 #include "kernels/camera/tile_walk.h"
 #include "kernels/frame/plain_show.h"
 
-/* Blocks of a row of a tile that make rows of sixteen pixels. */
+/* Adjacent blocks of a tile that make up a row of sixteen pixels. */
 #define ROW_BLOCKS (int)(PACK_SIZE / BLOCK)
 
 /* Fragments of four rows of sixteen pixels. */
@@ -13,7 +13,7 @@ struct four_rows {
 	packu order[BLOCK], instance[BLOCK], primitive[BLOCK], b1[BLOCK], b2[BLOCK], depth[BLOCK];
 };
 
-/* Those of four blocks side by side. */
+/* Take those of four adjacent blocks. */
 WIDE_VECTORS static inline void take_rows(const struct camera_pack *p, struct four_rows *to)
 {
 	packf depth[ROW_BLOCKS];
@@ -28,7 +28,7 @@ WIDE_VECTORS static inline void take_rows(const struct camera_pack *p, struct fo
 	tile_quarters(as_uint16(depth[0]), as_uint16(depth[1]), as_uint16(depth[2]), as_uint16(depth[3]), to->depth);
 }
 
-/* Row i of four as plain's rows are. x, y: in the band. @return a bit for each pixel that has a fragment */
+/* Row i of the four, in plain's format. x, y: in the band. @return a bit for each pixel that has a fragment */
 WIDE_VECTORS static inline uint load_taken(const struct plain_arguments *a, const struct four_rows *from, int i, uint x,
                                            uint y, struct plain_row *row)
 {
@@ -46,13 +46,13 @@ WIDE_VECTORS static inline uint load_taken(const struct plain_arguments *a, cons
 	return pack_bits(from->order[i] != SCENE_NONE);
 }
 
-/* What is kept from row to row of a tile. */
+/* Kept from row to row of a tile. */
 struct tile_kept {
 	struct plain_kept plain;
 	struct plain_empty empty;
 };
 
-/* Four rows of sixteen pixels, from block x, y of the tile on. */
+/* Show four rows of sixteen pixels, starting at block x, y of the tile. */
 static inline void show_rows(const struct plain_arguments *a, const struct shade_arguments *s, const struct tile *t,
                              int is_seen, int x, int y, struct tile_kept *kept)
 {
