@@ -1,4 +1,4 @@
-/* The end of a width: before the next one begins. */
+/* Ends one width, before the next begins. */
 #undef LANES
 #undef REAL
 #undef WORD

@@ -1,21 +1,22 @@
 /*
- * Formulas are written once for one place and for sixteen: in files NAME_lanes.h, which are included after this header,
- * and in kernels again after sixteen_lanes.h. They say with these words what differs:
+ * Formulas are written once for both one lane and sixteen, in files NAME_lanes.h. These are included after this header
+ * and, in kernels, again after sixteen_lanes.h. The following words stand for what differs:
  *
- * LANES          begins a function; both widths have the same names
+ * LANES          begins a function; functions have the same name in both widths
  * REAL WORD INT  a float, a uint32_t and an int of each lane
- * MASK           what comparisons of them give; && || ! and ?: take it
+ * MASK           result of comparing them; usable with && || ! and ?:
  * VEC3 VEC4      vectors of REALs; V3 and V4 make one
- * LANED(name)    a struct's name, which has a width of its own
- * SAME(x)        a float that all lanes share, where a REAL is needed; others are converted by (WORD)(x) and the like
- * SAME3 SAME4    the same of a vector
- * IF_ALL(x)      a MASK of what is true in all lanes or in none; ANY(mask): whether it is true in any
- * CHOOSE(mask, yes, no), CHOOSE3, CHOOSE4  of REALs and vectors. Sixteen lanes work out both: no branch is spared
- * MOST(x, y), LEAST  the larger and the smaller one; of a NaN, either
- * ROUND          to the nearest whole number, the even one of two
+ * LANED(name)    a struct's name, which differs between widths
+ * SAME(x)        a float that all lanes share, as a REAL; other types are converted by (WORD)(x) and so on
+ * SAME3 SAME4    the same for a vector
+ * IF_ALL(x)      a MASK from a condition that all lanes share; ANY(mask): whether it is true in any lane
+ * CHOOSE(mask, yes, no), CHOOSE3, CHOOSE4  for REALs and vectors. Sixteen lanes evaluate both sides, so this saves no
+ *                                          branch
+ * MOST(x, y), LEAST  maximum and minimum; with a NaN, either argument
+ * ROUND          round to nearest, ties to even
  * TO_REAL TO_WORD TO_INT  the same value; BITS OF_BITS AS_INT AS_WORD: the same bits
  *
- * Sums are built up in variables, not in a struct that is returned: compilers leave that one in memory.
+ * Sums are accumulated in local variables, not in a returned struct, which compilers keep in memory.
  */
 #include "kernels/no_lanes.h"
 

@@ -20,7 +20,7 @@ LANES REAL v3_most(VEC3 a)
 	return M_MAX(M_MAX(a.x, a.y), a.z);
 }
 
-/* The largest coordinate without its sign. */
+/* The largest absolute coordinate. */
 LANES REAL v3_extent(VEC3 a)
 {
 	return MOST(MOST(M_ABS(a.x), M_ABS(a.y)), M_ABS(a.z));
@@ -41,7 +41,7 @@ LANES VEC3 v3_cross(VEC3 a, VEC3 b)
 	return V3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-/* Length 1; a vector of length 0 stays what it is. */
+/* Scale to length 1; a vector of length 0 is returned unchanged. */
 LANES VEC3 v3_normalize(VEC3 a)
 {
 	REAL length2 = v3_dot(a, a);
@@ -74,13 +74,13 @@ LANES REAL v4_dot(VEC4 a, VEC4 b)
 	return a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
 }
 
-/* a + (b - a) t, so that t = 0 gives a and equal ends give themselves */
+/* a + (b - a) t, so that t = 0 gives exactly a, and equal ends give exactly their value */
 LANES VEC4 v4_mix(VEC4 a, VEC4 b, REAL t)
 {
 	return v4_add(a, v4_scale(v4_sub(b, a), t));
 }
 
-/* Between three by their weights; equals give themselves. */
+/* Interpolate three values by their weights; equal values are returned exactly. */
 LANES VEC4 v4_between(VEC4 a, VEC4 b, VEC4 c, const REAL *weight)
 {
 	return v4_add(a, v4_add(v4_scale(v4_sub(b, a), weight[1]), v4_scale(v4_sub(c, a), weight[2])));
@@ -96,7 +96,7 @@ LANES VEC4 v4_clamp01(VEC4 a)
 	return V4(clamp01(a.x), clamp01(a.y), clamp01(a.z), clamp01(a.w));
 }
 
-/* As llvmpipe clamps colours of vertices: a NaN becomes 1. */
+/* Clamp as llvmpipe clamps vertex colours: a NaN becomes 1. */
 LANES REAL clamp_vertex(REAL x)
 {
 	return clamp01(CHOOSE(x < 1.0f, x, SAME(1.0f)));

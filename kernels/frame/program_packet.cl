@@ -1,10 +1,10 @@
 /*
- * program_packet: program with SHADE_PACKET consecutive fragments of the list a work item, for CPUs, material by
- * material (kernels/frame/pack_program.h). What packs do not know goes one by one: a triangle that several fragments
- * lie in is set up once.
+ * program_packet: program for SHADE_PACKET consecutive fragments of the list per work item, for CPUs, material by
+ * material (kernels/frame/pack_program.h). Fragments that packs do not support are processed one by one; a triangle
+ * with several fragments is set up once.
  *
- * plain_program: the same with a block of a plain frame's pixels (kernels/frame/plain.h). Frames without programs
- * compile neither.
+ * plain_program: the same for a block of a plain frame's pixels (kernels/frame/plain.h). Frames without programs
+ * compile neither kernel.
  */
 #include "kernels/frame/pack_program.h"
 #include "kernels/frame/plain_row.h"
@@ -23,7 +23,7 @@ static inline void keep_nothing(struct program_kept *kept)
 
 /* --- Lists ------------------------------------------------------------------------------------------------------- */
 
-/* Which ones programs have a say in. */
+/* Find the fragments whose colour depends on programs. */
 static inline void find_left(const struct shade_arguments *a, uint first, struct pack_left *left)
 {
 	left->first = first;
@@ -73,7 +73,7 @@ KERNEL_OF(float16) void program_packet(KERNEL_ARGUMENTS(shade))
 
 /* --- Plain frames ------------------------------------------------------------------------------------------------ */
 
-/* One that packs do not know: as it is shaded without its program, then by it. */
+/* A fragment that packs do not support: shaded without its program, then by it. */
 static inline void run_alone(const struct plain_arguments *a, const struct shade_arguments *s,
                              const struct plain_row *row, uint lane, struct program_kept *kept)
 {

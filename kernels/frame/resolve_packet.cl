@@ -1,23 +1,23 @@
 /*
- * resolve_packet: resolve with all colours of a pixel as one vector, for CPUs. Tests, and what else a pixel keeps, go
- * as in kernels/gl/pixel.h; logic operations and frame buffers of floats do altogether.
+ * resolve_packet: resolve with all colours of a pixel as one vector, for CPUs. Tests and non-colour values are handled
+ * as in kernels/gl/pixel.h, and so are all values for logic operations and float frame buffers.
  *
- * Lanes stand as struct shaded and struct frame_pixel begin: GL's colour and alpha, then red, green and blue of the
- * four further parts.
+ * Lanes follow the beginnings of struct shaded and struct frame_pixel: GL's colour and alpha, then red, green and blue
+ * of the four further parts.
  */
 #include "kernels/frame/pack_blend.h"
 #include "kernels/frame/pack_texture.h"
 #include "kernels/gl/stages.h"
 
 #define LANE_ALPHA 3
-#define LANE_DIRECT 7 /* the first of the parts that rules may leave out or make solid */
+#define LANE_DIRECT 7 /* first lane of the parts that rules may omit or make opaque */
 #define LANE_BEAUTY 13
 #define LANE_CHANNELS (packu)(0, 1, 2, 3, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2)
 
-/* With the alignment of its elements. */
+/* Aligned only like its elements. */
 typedef float16 loose_floats __attribute__((aligned(4)));
 
-/* As blend_colors. */
+/* blend_colors for all lanes. */
 WIDE_VECTORS static inline packf blend(__global const struct scene_material *m, packf source, packf destination)
 {
 	const float4 own = vload4(0, m->blend_color);
@@ -42,7 +42,7 @@ WIDE_VECTORS static inline packf blend(__global const struct scene_material *m, 
 	return convert_float16(as_int16(out)) / 255.0f;
 }
 
-/* As pixel_colors. */
+/* pixel_colors for all lanes. */
 WIDE_VECTORS static inline void draw_colors(__global const struct scene_material *m,
                                             __global const struct shaded *shaded, __global struct frame_pixel *pixel,
                                             uint bits)

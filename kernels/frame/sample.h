@@ -1,12 +1,13 @@
 /*
- * Samples that depend on neither time nor scheduling: a sequence fills the unit square evenly. In mode path each pixel,
- * bounce, purpose and frame scrambles Sobol's by a number of its own; elsewhere each pixel and purpose turns one.
+ * Samples that depend on neither time nor scheduling, from sequences that fill the unit square evenly. In mode path,
+ * each pixel, bounce, purpose and frame scrambles Sobol's sequence with its own number. In other modes, each pixel and
+ * purpose rotates a single sequence.
  */
 #pragma once
 
 #include "kernels/common.h"
 
-/* What a sample is for: neighbours in this list share nothing. */
+/* The purpose of a sample. Adjacent values in this list do not interact. */
 #define SAMPLE_LIGHT 0x10000u /* + slot of the light */
 #define SAMPLE_BOUNCE 0x20000u
 #define SAMPLE_CHOICE 0x30000u
@@ -18,8 +19,8 @@
 #include "kernels/frame/sample_lanes.h"
 
 /*
- * Number `index` of the sequence with steps 1/p and 1/p^2, p^3 = p + 1 (M. Roberts, "The unreasonable effectiveness of
- * quasirandom sequences", 2018), in 2^-32, moved by the seed.
+ * Element `index` of the sequence with steps 1/p and 1/p^2, p^3 = p + 1 (M. Roberts, "The unreasonable effectiveness of
+ * quasirandom sequences", 2018), in units of 2^-32, offset by the seed.
  */
 static inline void sample_square(uint32_t seed, uint32_t index, float *u, float *v)
 {
@@ -27,7 +28,10 @@ static inline void sample_square(uint32_t seed, uint32_t index, float *u, float 
 	*v = sample_unit(index * 2447445414u + sample_hash(seed ^ 0x9e3779b9u));
 }
 
-/* Sample `index` of a purpose. frame: 0: as sample_square has it; else Sobol's, by this number of the frame */
+/*
+ * Sample `index` for a purpose. frame: 0: as in sample_square; else Sobol's sequence, scrambled with this number of the
+ * frame
+ */
 static inline void sample_take(uint32_t frame, uint32_t seed, uint32_t index, float *u, float *v)
 {
 	if (frame)
@@ -37,11 +41,12 @@ static inline void sample_take(uint32_t frame, uint32_t seed, uint32_t index, fl
 }
 
 /*
- * Where samples fall within a pixel: a (0,2)-sequence, of which any 2^k in a row from a multiple of 2^k on hold one in
- * each of 2^k columns, rows and other even cuts of the pixel, its digits exchanged by a hash (Kollig and Keller 2002,
- * "Efficient multidimensional sampling", sec. 3.1). There are so many exchanges, and a hash of the pixel's number picks
- * one: neighbours have different samples, so that edges and fine patterns leave noise and no bands. Few, because a
- * picture is traced for each: camera rays keep to the pixel grid, moved as a whole.
+ * Sample positions within a pixel: a (0,2)-sequence. Any 2^k consecutive samples that start at a multiple of 2^k put
+ * one sample in each of 2^k columns, rows and other equal divisions of the pixel. Its digits are permuted by a hash
+ * (Kollig and Keller 2002, "Efficient multidimensional sampling", sec. 3.1). There are SAMPLE_TURNS permutations, and a
+ * hash of the pixel's number picks one. Neighbours thus have different samples, so edges and fine patterns leave noise
+ * instead of bands. There are only a few, because each needs a traced picture of its own: camera rays keep to the pixel
+ * grid, which is shifted as a whole.
  */
 #define SAMPLE_TURNS 4u
 
@@ -50,7 +55,7 @@ static inline uint32_t sample_turn(uint32_t pixel)
 	return sample_hash(pixel + SAMPLE_JITTER) % SAMPLE_TURNS;
 }
 
-/* 1 where a pixel takes part in a turn. SAMPLE_TURNS is the turn of all pixels: in mode path, where noise hides
+/* 1 if a pixel takes part in a turn. The value SAMPLE_TURNS means all pixels, for mode path, where noise hides
  * bands. */
 static inline int sample_takes_part(uint32_t pixel, uint32_t turn)
 {
@@ -58,9 +63,9 @@ static inline int sample_takes_part(uint32_t pixel, uint32_t turn)
 }
 
 /*
- * Sample `index` (1 and up; 0 is the pixel's centre) of the pixels of a turn: by how much it is off the centre, pixels.
- * A step of 1/256 pixel, to which vertices are snapped, is left at the sides: there the picture's own border may be cut
- * away.
+ * Offset from the centre, in pixels, of sample `index` (1 and up; 0 is the pixel's centre) for the pixels of a turn. A
+ * margin of 1/256 pixel, the step that vertices are snapped to, stays free at the sides, where the picture's own border
+ * may be clipped.
  */
 static inline void sample_shift(uint32_t turn, uint32_t index, float shift[2])
 {
@@ -74,14 +79,16 @@ static inline void sample_shift(uint32_t turn, uint32_t index, float shift[2])
 	shift[1] = (sample_unit(sobol ^ sample_hash(SAMPLE_JITTER + 0x100u + turn)) - 0.5f) * 0.9921875f;
 }
 
-/* When the same sample is taken, while a shutter is open: [-0.5,0.5) of that time. Index 0 is its middle. */
+/*
+ * Time of the same sample while the shutter is open, as a fraction [-0.5,0.5) of the exposure. Index 0 is its middle.
+ */
 static inline float sample_time(uint32_t turn, uint32_t index)
 {
-	/* steps of the golden ratio, in 2^-32: evenly, and not as the places above */
+	/* steps of the golden ratio, in units of 2^-32: even, and unrelated to the positions above */
 	return sample_unit(index * 2654435769u + (turn % SAMPLE_TURNS) * 0x40000000u + 0x80000000u) - 0.5f;
 }
 
-/* A point of the disk of radius 1 that stands across `n`, even in area. */
+/* A point, uniform in area, of the unit disk perpendicular to `n`. */
 static inline struct vec3 sample_disk(struct vec3 n, float u, float v)
 {
 	struct vec3 a, b;
@@ -91,7 +98,7 @@ static inline struct vec3 sample_disk(struct vec3 n, float u, float v)
 	return v3_add(v3_scale(a, r * M_COS(turn)), v3_scale(b, r * M_SIN(turn)));
 }
 
-/* A direction about the unit vector `n`, as often as the cosine to it. */
+/* A direction about the unit vector `n`, with a density proportional to the cosine to it. */
 static inline struct vec3 sample_cosine(struct vec3 n, float u, float v)
 {
 	return v3_normalize(v3_add(sample_disk(n, u, v), v3_scale(n, M_SQRT(1.0f - u))));

@@ -1,7 +1,6 @@
-/* Numbers that chance is made of, and directions by them (one_lanes.h). */
+/* Random numbers, and directions made of them (one_lanes.h). */
 
-/* Mix the bits of a number: multiply, shift and xor (constants found by C. Wellons, "Prospecting for hash
- * functions"). */
+/* Hash a number by multiply, shift and xor (constants found by C. Wellons, "Prospecting for hash functions"). */
 LANES WORD sample_hash(WORD x)
 {
 	x ^= x >> 16;
@@ -17,7 +16,7 @@ LANES REAL sample_unit(WORD x)
 	return TO_REAL(x >> 8) * 5.9604644775390625e-8f; /* 2^-24: below 1 */
 }
 
-/* The bits of a number, the last one first. */
+/* The bits of a number in reverse order. */
 LANES WORD sample_reverse(WORD x)
 {
 	x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
@@ -27,8 +26,8 @@ LANES WORD sample_reverse(WORD x)
 	return x >> 16 | x << 16;
 }
 
-/* Each bit is exchanged or kept, as a hash of the bits below it says (S. Laine and T. Karras, "Stratified Sampling for
-   Stochastic Transparency", 2011; constants after N. Vegdahl, "Building a Better LK Hash", 2021). */
+/* Flip each bit depending on a hash of the bits below it (S. Laine and T. Karras, "Stratified Sampling for Stochastic
+ * Transparency", 2011; constants after N. Vegdahl, "Building a Better LK Hash", 2021). */
 LANES WORD sample_mix_upwards(WORD x, WORD seed)
 {
 	x ^= x * 0x3d20adeau;
@@ -40,15 +39,15 @@ LANES WORD sample_mix_upwards(WORD x, WORD seed)
 }
 
 /*
- * Point `index` of Sobol's (0,2)-sequence, its digits exchanged as A. Owen has it ("Randomly Permuted (t,m,s)-Nets and
- * (t,s)-Sequences", 1995) and its points in an order of their own, which makes seeds independent of each other (B.
- * Burley, "Practical Hash-based Owen Scrambling", 2020). All points from 0 up to a power of two lie evenly.
+ * Point `index` of Sobol's (0,2)-sequence, with Owen scrambling (A. Owen, "Randomly Permuted (t,m,s)-Nets and
+ * (t,s)-Sequences", 1995) and with its points in shuffled order, which makes seeds independent of each other (B.
+ * Burley, "Practical Hash-based Owen Scrambling", 2020). Points 0 up to any power of two are evenly distributed.
  */
 LANES void sample_sobol(WORD seed, uint32_t index, REAL *u, REAL *v)
 {
 	const WORD hash = sample_hash(seed);
 	const WORD place = sample_reverse(sample_mix_upwards((WORD)(sample_reverse(index)), hash));
-	WORD second = place; /* Sobol's matrix of dimension 2, applied by halves: a row is Pascal's triangle modulo 2 */
+	WORD second = place; /* Sobol's matrix of dimension 2, applied by halves; its rows are Pascal's triangle modulo 2 */
 
 	second ^= second >> 16;
 	second ^= (second & 0xff00ff00u) >> 8;
@@ -59,7 +58,7 @@ LANES void sample_sobol(WORD seed, uint32_t index, REAL *u, REAL *v)
 	*v = sample_unit(sample_reverse(sample_mix_upwards(second, sample_hash(hash ^ 0xc2b2ae35u))));
 }
 
-/* Two unit vectors that are at right angles to a unit vector and to each other. */
+/* Two unit vectors perpendicular to a unit vector and to each other. */
 LANES void sample_basis(VEC3 n, VEC3 *a, VEC3 *b)
 {
 	const MASK by_x = M_ABS(n.x) < 0.6f;

@@ -1,13 +1,13 @@
 /*
  * Prefix sums (Blelloch 1990, "Prefix sums and their applications"): the place of each item's results in a dense list
- * is the sum of all counts before. Included by C and OpenCL C.
+ * is the sum of all preceding counts. Included by C and OpenCL C.
  *
- * A work item sums SCAN_CHUNK consecutive counts; the host makes of these sums what stands before each chunk. No work
- * item waits for another: nothing depends on scheduling.
+ * A work item sums SCAN_CHUNK consecutive counts; the host turns these sums into the total before each chunk. No work
+ * item waits for another, so nothing depends on scheduling.
  *
- * scan_sum: sums[i] = counts[SCAN_CHUNK i] + .. as far as n counts go; and SCAN_FULL where one of them is `full`
+ * scan_sum: sums[i] = counts[SCAN_CHUNK i] + .. up to count n; plus SCAN_FULL if one of them is `full`
  *
- * scan_place: places[k] = what stands before chunk i + the counts before count k of chunk i
+ * scan_place: places[k] = total before chunk i + the counts before count k in chunk i
  *
  * Work items: SCAN_ITEMS(n).
  */

@@ -1,4 +1,4 @@
-/* Paths past the first hit, and light through what lets it pass: see kernels/frame/path.h and shadow.h. */
+/* Paths beyond the first hit, and light through transmitting surfaces: see kernels/frame/path.h and shadow.h. */
 #include "kernels/frame/path.h"
 
 KERNEL_OF(float4) void shadow_walk(KERNEL_ARGUMENTS(shadow_walk)) KERNEL_ITEMS(shadow_walk, n)

@@ -1,12 +1,12 @@
 /*
- * Paths with SHADE_PACKET items of their lists a work item, for CPUs: sixteen points of one material at once
- * (kernels/frame/pack_hit.h). What packs do not know goes one by one.
+ * Paths, SHADE_PACKET items of their lists per work item, for CPUs: sixteen points of one material at once
+ * (kernels/frame/pack_hit.h). Points that packs do not support are processed one by one.
  */
 #include "kernels/frame/pack_hit.h"
 
 /* --- Which ones -------------------------------------------------------------------------------------------------- */
 
-/* The hits of a work item. */
+/* Find the hits of a work item. */
 static inline void find_hits(const struct shade_arguments *s, __global const struct hit *hits, uint first, uint n,
                              struct pack_left *left)
 {
@@ -32,7 +32,7 @@ static inline void find_hits(const struct shade_arguments *s, __global const str
 	}
 }
 
-/* The fragments of a work item that light leaves; the others have no paths. */
+/* Find the fragments of a work item that light leaves; the others have no paths. */
 static inline void find_leaving(const struct leave_arguments *a, const struct shade_arguments *s, uint first,
                                 struct pack_left *left)
 {
@@ -140,7 +140,7 @@ struct way {
 	struct pack_branches branches;
 };
 
-/* The paths of q's lanes. */
+/* Load the paths of q's lanes. */
 WIDE_VECTORS static inline void load_paths(const struct shade_hit_arguments *a, const struct pack_points *q,
                                            struct way *way)
 {
@@ -150,7 +150,7 @@ WIDE_VECTORS static inline void load_paths(const struct shade_hit_arguments *a, 
 	pack_gather_from((__global const float *)a->paths, place, row);
 	pack_gather_from((__global const float *)a->paths, place + 3, last);
 	way->weight = v3_16(row[0], row[1], row[2]);
-	/* those of PATH_NEAR that hit */
+	/* PATH_NEAR paths that hit something */
 	way->kind = select(as_uint16(last[1]), (packu)(PATH_REFLECT), as_uint16(last[1]) == PATH_NEAR);
 	way->branches.rays = a->next_rays;
 	way->branches.paths = a->next_paths;
@@ -161,7 +161,7 @@ WIDE_VECTORS static inline void load_paths(const struct shade_hit_arguments *a, 
 	vstore16((packu)(0), 0, way->branches.count);
 }
 
-/* What the bodies that paths come through leave of them; clear ones leave all. */
+/* Attenuate by the bodies that paths travelled through; clear bodies absorb nothing. */
 static inline void absorb(const struct tables *t, const struct pack_points *q, struct way *way)
 {
 	for (uint left = q->lanes & pack_bits(way->branches.medium != SCENE_NONE); left; left &= left - 1) {
@@ -178,7 +178,7 @@ static inline void absorb(const struct tables *t, const struct pack_points *q, s
 	}
 }
 
-/* As hit_color. lit: receives the colours as the vertices have them */
+/* hit_color for all lanes. lit: receives the colours as lit at the vertices */
 static inline struct vec3_16 color_of(const struct shade_arguments *s, const struct pack_points *q,
                                        const struct pack_texturing *texturing, struct pack_kept *kept,
                                        struct vec4_16 *lit)
@@ -246,7 +246,7 @@ static inline void shade_hits(const struct shade_hit_arguments *a, const struct 
 	store_hits(a, q, &out, &way);
 }
 
-/* As hit_bound. kind: the paths' own */
+/* hit_bound for all lanes. kind: the paths' own */
 static inline struct vec3_16 bound(const struct shade_hit_arguments *a, const struct way *way, packu kind,
                                     struct vec3_16 light)
 {
@@ -256,7 +256,7 @@ static inline struct vec3_16 bound(const struct shade_hit_arguments *a, const st
 	return a->most > 0.0f ? v3_choose(bounced & (most > a->most), v3_scale(light, a->most / most), light) : light;
 }
 
-/* The same where light is followed. */
+/* The same for light transport. */
 static inline void shade_bounces(const struct shade_hit_arguments *a, const struct shade_arguments *s,
                                  struct pack_points *q, __global const struct scene_material *m)
 {

@@ -1,18 +1,18 @@
 /*
- * shade_packet: shade with SHADE_PACKET consecutive fragments of the list a work item, for CPUs: material by material,
- * sixteen at a time in vectors (kernels/frame/pack_shade.h). Pixels stand one after the other in the list, each with
- * all that covers it, so neighbours in a pack are mostly neighbours on the same surface. What packs do not know is
- * shaded one by one: a triangle that several fragments lie in is set up once. kernels/README.md has the figures.
+ * shade_packet: shade for SHADE_PACKET consecutive fragments of the list per work item, for CPUs: material by material,
+ * sixteen at a time in vectors (kernels/frame/pack_shade.h). The list is ordered by pixel, with all fragments of a
+ * pixel together, so neighbours in a pack are mostly neighbours on the same surface. Fragments that packs do not
+ * support are shaded one by one; a triangle with several fragments is set up once. kernels/README.md has the figures.
  */
 #include "kernels/frame/pack_shade.h"
 
-/* What the fragments of a launch leave for the next ones. */
+/* Kept from one fragment of a launch to the next. */
 struct shade_kept {
 	struct setup_kept one[SHADE_TRIANGLES];
 	struct pack_kept pack;
 };
 
-/* Which ones are to be shaded. */
+/* Find the fragments to shade. */
 static inline void find_left(const struct shade_arguments *a, uint first, struct pack_left *left)
 {
 	uint last = SCENE_NONE;

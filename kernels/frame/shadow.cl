@@ -1,5 +1,5 @@
-/* Rays from fragments and hits to lights and around: see kernels/frame/shadow.h. A plain frame needs these alone, so
- * paths are compiled apart. */
+/* Rays from fragments and hits to lights and to the surroundings: see kernels/frame/shadow.h. Plain frames need only
+ * these, so paths are compiled separately. */
 #include "kernels/frame/shadow.h"
 
 KERNEL_OF(float4) void shadow_ray(KERNEL_ARGUMENTS(shadow_ray))

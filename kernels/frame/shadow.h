@@ -1,15 +1,15 @@
 /*
- * One work item of each kernel that sends rays from fragments and hits to lights, or from fragments into their
- * surroundings, and of those that sum up the rays' visibility. Rays stand slot by slot of a material's lights, in the
- * order of fragments (kernels/gl/stages.h) or hits. A stopped ray goes on in a list of its own, past each surface that
- * lets light pass.
+ * One work item of each kernel that sends rays from fragments and hits to lights, or from fragments to their
+ * surroundings, and of the kernels that sum the rays' visibility. Rays are ordered by slot of a material's lights, then
+ * by fragment (kernels/gl/stages.h) or hit. A stopped ray continues in a separate list, through each surface that lets
+ * light pass.
  */
 #pragma once
 
 #include "kernels/frame/sample.h"
 #include "kernels/frame/transparency.h"
 
-/* Least t of a ray to a light that begins within the body that it lights: a zero that tells (shadow_walk). */
+/* t_min of a ray to a light that starts inside the body that it lights: a negative zero as a marker (shadow_walk). */
 #define SHADOW_WITHIN (-0.0f)
 
 static inline int shadow_begins_within(GLOBAL const struct ray *ray)
@@ -25,7 +25,7 @@ static inline void stage_no_ray(GLOBAL struct ray *ray)
 	ray->t_max = 0.0f;
 }
 
-/* A ray without end from a point; `from`: the direction of the ray that led there. */
+/* An unbounded ray from a point; `from`: the direction of the ray that led to the point. */
 static inline void stage_ray(const struct point *p, struct vec3 direction, struct vec3 from, GLOBAL struct ray *ray)
 {
 	struct point_plane plane = point_plane_of(p);
@@ -36,7 +36,7 @@ static inline void stage_ray(const struct point *p, struct vec3 direction, struc
 	ray->t_max = 1.0e30f;
 }
 
-/* The direction in which a view looks through a pixel: from its near to its far point. */
+/* The viewing direction through a pixel: from its near to its far point. */
 static inline struct vec3 stage_view_direction(GLOBAL const struct view *view, uint32_t x, uint32_t y)
 {
 	float nx = 2.0f * ((float)x + 0.5f - view->viewport[0]) / view->viewport[2] - 1.0f;
@@ -50,13 +50,13 @@ static inline struct vec3 stage_view_direction(GLOBAL const struct view *view, u
 /* --- Lights ------------------------------------------------------------------------------------------------------ */
 
 /*
- * The surface that a triangle's three normals mean. `smooth` is 0 where they are equal, only one counts, or they lie on
- * both sides of the triangle, as a thin fin's do: then rays start on the triangle itself, on the light's side. A
- * surface above it would lie below it, too, and the triangle would stop its own light.
+ * The surface implied by a triangle's three normals. `smooth` is 0 if they are equal, if only one is used, or if they
+ * are on both sides of the triangle, as on a thin fin. Rays then start on the triangle itself, on the light's side: a
+ * surface above the triangle on one side would be below it on the other, and the triangle would block its own light.
  */
 struct shadow_curve {
 	int smooth;
-	struct vec3 normal[3]; /* of the corners, on the side that is lit */
+	struct vec3 normal[3]; /* at the corners, on the lit side */
 };
 
 static inline int shadow_is_other(struct vec3 a, struct vec3 b)
@@ -64,10 +64,10 @@ static inline int shadow_is_other(struct vec3 a, struct vec3 b)
 	return (a.x != b.x) | (a.y != b.y) | (a.z != b.z);
 }
 
-/* Normals lie on both sides of a triangle from 6 degrees on, as cosines to its own. */
+/* Normals count as on both sides of a triangle from 6 degrees on, given as a cosine to the triangle's own normal. */
 #define SHADOW_BOTH_SIDES 0.1f
 
-/* Whether normals may bend a material's triangles. */
+/* Test whether normals may curve a material's triangles. */
 static inline int shadow_may_curve(GLOBAL const struct scene_material *m)
 {
 	return (m->lighting || m->program_normals) &&
@@ -82,7 +82,7 @@ static inline struct shadow_curve shadow_curve_of(const struct tables *t, const 
 	float cosine[3];
 
 	for (uint32_t i = 0u; i < 3u; i++) {
-		c.normal[i] = v3_scale(v3_normalize(point_corner_normal(t, p, i)), side); /* GL need not have normalised it */
+		c.normal[i] = v3_scale(v3_normalize(point_corner_normal(t, p, i)), side); /* GL may not have normalised it */
 		cosine[i] = v3_dot(plane->normal, c.normal[i]);
 	}
 	c.smooth = shadow_may_curve(p->material) &&
@@ -93,10 +93,10 @@ static inline struct shadow_curve shadow_curve_of(const struct tables *t, const 
 }
 
 /*
- * Weights of the place from which light is asked for. A vertex that faces the light lights all of its triangles in part
- * (sec. 2.14.1, Gouraud 1971), beyond the line where the interpolated normal turns away. From there the surface itself
- * stands in the light's way: a point beyond the line asks on the line, straight towards the corner that faces the light
- * most.
+ * Weights of the place where the light's visibility is tested. A vertex that faces the light partly lights all of its
+ * triangles (sec. 2.14.1, Gouraud 1971), beyond the line where the interpolated normal turns away. From there, the
+ * surface itself would block the light. So a point beyond the line is moved to the line, straight towards the corner
+ * that faces the light most.
  *
  * cosine: of each corner's normal to the light.
  * @return 0: no corner faces the light
@@ -115,13 +115,13 @@ static inline int shadow_lit_weights(const float *of_point, const float *cosine,
 }
 
 /*
- * Where the ray to a light starts on a triangle of several normals: above it, on a surface that has these normals at
- * its corners (J. Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, ch. 4). Flat faces would else
- * stop light that grazes them: the shade's border would follow the triangles' edges. Where the corners' normals bend
- * inwards nothing is moved.
+ * Start of a ray to a light on a triangle with differing normals: above it, on a surface that has these normals at its
+ * corners (J. Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, ch. 4). Otherwise flat faces would
+ * block grazing light, and the shadow border would follow the triangles' edges. Where the corners' normals bend
+ * inwards, nothing is moved.
  *
- * The start is continuous from triangle to triangle, and so are the shadows of others on them. to: the light, or the
- * direction to it.
+ * The start is continuous from triangle to triangle, and so are shadows cast on them. to: the light, or the direction
+ * to it.
  */
 static inline struct vec3 shadow_curve_origin(const struct shadow_curve *c, const struct point_plane *plane,
                                               const float *of_point, struct vec3 to, int positional, struct vec3 from)
@@ -144,10 +144,10 @@ static inline struct vec3 shadow_curve_origin(const struct shadow_curve *c, cons
 }
 
 /*
- * 1 where a triangle turns away from a light on the side that is seen. What GL lights there, it lights by normals that
- * lean over to the light. Normals of a curved surface say where its own shade begins (shadow_curve_origin), and rules
- * may have its faces do so; others mean no surface, and the body behind the triangle does not take that light away
- * (shadow_walk).
+ * 1 if the visible side of a triangle faces away from a light. GL lights such a triangle only because its normals lean
+ * towards the light. Normals of a curved surface show where its own shadow begins (shadow_curve_origin), and rules may
+ * treat its faces that way. Other normals describe no surface, and then the body behind the triangle does not block
+ * that light (shadow_walk).
  */
 static inline int shadow_turns_away(const struct point_plane *plane, struct vec3 towards, struct vec3 from)
 {
@@ -155,9 +155,9 @@ static inline int shadow_turns_away(const struct point_plane *plane, struct vec3
 }
 
 /*
- * The ray from a point to a light: as far as the light, d not normalised, so that t = 1 is the light itself. `from`:
- * the direction of the ray that led to the point. u, v: which place on the light, where it has a size: a sphere is seen
- * as a disk; the radius of a light at infinity is the tangent of half the angle that it fills.
+ * The ray from a point to a light. Its d is not normalised, and t = 1 is the light itself. `from`: the direction of the
+ * ray that led to the point. u, v: the place on the light, if it has a size: a sphere is sampled as a disk; the radius
+ * of a light at infinity is the tangent of half its angular diameter.
  */
 static inline void stage_light_ray(const struct tables *t, const struct point *p, const struct point_plane *plane,
                                    const struct shadow_curve *curve, uint32_t slot, struct vec3 from, float u, float v,
@@ -187,9 +187,9 @@ static inline void stage_light_ray(const struct tables *t, const struct point *p
 		                   ray->t_max);
 }
 
-/* A triangle as rays from all its fragments need it, kept from the first one. */
+/* A triangle as needed by rays from all its fragments, cached from the first one. */
 struct shadow_kept {
-	uint32_t instance, primitive; /* the fragments'; SCENE_NONE: nothing is kept */
+	uint32_t instance, primitive; /* the fragments'; SCENE_NONE: empty */
 	struct point p;               /* without its weights */
 	float w_inv[3];
 	struct point_plane plane;
@@ -197,8 +197,8 @@ struct shadow_kept {
 };
 
 /*
- * shadow_ray: rays[slot * n + i] goes from fragment i to the light in a slot; an empty ray where none is wanted.
- * sample: which of the rays to each light, over all passes of the frame. keeps, kept: as for shade_item.
+ * shadow_ray: rays[slot * n + i] goes from fragment i to the light in a slot; an empty ray if none is needed. sample:
+ * index of the ray to each light, over all passes of the frame. keeps, kept: as for shade_item.
  */
 static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_t item, int keeps,
                                    struct shadow_kept *kept)
@@ -233,13 +233,13 @@ static inline void shadow_ray_item(const struct shadow_ray_arguments *a, uint32_
 	                &a->rays[item]);
 }
 
-/* A seed for a path at its present place. */
+/* A seed for a path at its current position. */
 static inline uint32_t stage_seed(GLOBAL const struct path *path, GLOBAL const uint32_t *pixels, uint32_t purpose)
 {
 	return sample_hash(sample_hash(pixels[path->target]) + path->depth * 4u + path->kind) + purpose;
 }
 
-/* hit_ray: from hits to lights, as shadow_ray does from fragments. `rays`: those that led to the hits. */
+/* hit_ray: from hits to lights, as shadow_ray does for fragments. `rays`: those that led to the hits. */
 static inline void hit_ray_item(const struct hit_ray_arguments *a, uint32_t item)
 {
 	const struct tables *t = &a->tables;
@@ -261,7 +261,7 @@ static inline void hit_ray_item(const struct hit_ray_arguments *a, uint32_t item
 	stage_light_ray(t, &p, &plane, &curve, slot, v3_load(a->rays[i].d), u, v, &a->out[item]);
 }
 
-/* ao_ray: an even look around from each fragment, as far as `reach`. */
+/* ao_ray: rays around each fragment, evenly distributed, of length `reach`. */
 static inline void ao_ray_item(const struct ao_ray_arguments *a, uint32_t item)
 {
 	const struct tables *t = &a->tables;
@@ -280,7 +280,7 @@ static inline void ao_ray_item(const struct ao_ray_arguments *a, uint32_t item)
 	sample_square(sample_hash(a->pixels[item]) + SAMPLE_BOUNCE, a->sample, &u, &v);
 	d = sample_cosine(point_normal(&p), u, v);
 	if (v3_dot(d, plane) <= 0.0f)
-		return; /* below the horizon of a faceted surface: neither open nor closed */
+		return; /* below the horizon of a faceted surface: neither open nor occluded */
 	stage_ray(&p, d, from, &a->rays[item]);
 	a->rays[item].t_max = a->reach;
 }
@@ -288,8 +288,8 @@ static inline void ao_ray_item(const struct ao_ray_arguments *a, uint32_t item)
 /* --- Results ----------------------------------------------------------------------------------------------------- */
 
 /*
- * shadow_sum: visibility of lights: rays that nothing stopped add `weight`. first: of this list. Of the others, those
- * that may go on are left.
+ * shadow_sum: visibility of lights: rays that nothing stopped add `weight`. first: of this list. Of the others, only
+ * those that may continue remain set.
  */
 static inline void shadow_sum_item(const struct shadow_sum_arguments *a, uint32_t item)
 {
@@ -302,7 +302,7 @@ static inline void shadow_sum_item(const struct shadow_sum_arguments *a, uint32_
 		a->visibility[item * 3u + c] = a->first ? share : a->visibility[item * 3u + c] + share;
 }
 
-/* shadow_start: rays that something stopped, gathered, to go on through what lets light pass. */
+/* shadow_start: compacts stopped rays into a list, to continue through what lets light pass. */
 static inline void shadow_start_item(const struct shadow_start_arguments *a, uint32_t item)
 {
 	GLOBAL struct path *w;
@@ -318,7 +318,7 @@ static inline void shadow_start_item(const struct shadow_start_arguments *a, uin
 	w->medium = SCENE_NONE;
 }
 
-/* 1 where a ray that begins within a lit body leaves it: through the side to which the triangle's normals look. */
+/* 1 if a ray that starts inside a lit body leaves it, through the side that the triangle's normals face. */
 static inline int shadow_leaves_body(const struct tables *t, const struct hit *hit, GLOBAL const struct ray *ray)
 {
 	struct vec3 d = v3_load(ray->d), plane, sum;
@@ -330,8 +330,8 @@ static inline int shadow_leaves_body(const struct tables *t, const struct hit *h
 }
 
 /*
- * shadow_walk: past the surface that a ray to a light hit, or to its end. A path's kind is 1 while the ray may be
- * within the body that it lights.
+ * shadow_walk: continues past the surface that a ray to a light hit, or ends the ray. A path's kind is 1 while the ray
+ * may still be inside the body that it lights.
  */
 static inline void shadow_walk_item(const struct shadow_walk_arguments *a, uint32_t item)
 {
@@ -359,7 +359,7 @@ static inline void shadow_walk_item(const struct shadow_walk_arguments *a, uint3
 	a->counts[item] = 1u;
 }
 
-/* ao_shade: how open a fragment's surroundings are, as its colour or over it. */
+/* ao_shade: stores how open a fragment's surroundings are, as its colour or multiplied with it. */
 static inline void ao_shade_item(const struct ao_shade_arguments *a, uint32_t item)
 {
 	GLOBAL struct shaded *s = &a->shaded[item];

@@ -1,11 +1,11 @@
 /*
- * shadow_ray_packet: shadow_ray with SHADE_PACKET consecutive rays a work item, for CPUs: sixteen fragments of one
- * material at once (kernels/frame/pack_ray.h). Those that packs do not know send theirs one by one; what rays from a
- * triangle share is found once.
+ * shadow_ray_packet: shadow_ray for SHADE_PACKET consecutive rays per work item, for CPUs: sixteen fragments of one
+ * material at once (kernels/frame/pack_ray.h). Fragments that packs do not support send their rays one by one; data
+ * that a triangle's rays share is computed once.
  */
 #include "kernels/frame/pack_ray.h"
 
-/* A bit for each of the fragments first .. end - 1, sixteen at most, that wants a ray to a light. */
+/* A bit for each of the fragments first .. end - 1, at most sixteen, that needs a ray to a light. */
 static inline uint wanting(const struct shadow_ray_arguments *a, uint first, uint end, uint slot)
 {
 	uint lanes = 0;
@@ -34,7 +34,7 @@ static inline void send_lanes(const struct shadow_ray_arguments *a, const struct
 	pack_light_rays(&p, &surface, &curve, back, &pack_lights_of(&a->tables, m)[slot], lanes, list->item, rays);
 }
 
-/* Rays first .. end - 1 of a slot, sixteen at most. */
+/* Send rays first .. end - 1 of a slot, at most sixteen. */
 static inline void send_sixteen(const struct shadow_ray_arguments *a, uint slot, uint first, uint end,
                                 struct shadow_kept *kept)
 {
@@ -69,7 +69,7 @@ KERNEL_OF(float16) void shadow_ray_packet(KERNEL_ARGUMENTS(shadow_ray))
 	for (uint i = 0; i < SHADE_TRIANGLES; i++)
 		kept[i].instance = SCENE_NONE;
 	for (uint at = first, end; at < last; at = end) {
-		/* Sixteen at most, of one slot. */
+		/* At most sixteen, of one slot. */
 		end = min(min(at + PACK_SIZE, last), (at / n + 1) * n);
 		send_sixteen(&a, at / n, at % n, at % n + (end - at), kept);
 	}

@@ -1,12 +1,12 @@
 /*
- * What lets light through: holes, blended surfaces, glass. Rays to lights lose by it what it holds back; paths go on
- * behind it.
+ * Surfaces that let light through: holes, blended surfaces, glass. They attenuate rays to lights, and paths continue
+ * behind them.
  */
 #pragma once
 
 #include "kernels/gl/stages.h"
 
-/* What comes of a colour over a destination, without clamping: light has no 8 bits to be rounded to. */
+/* A colour blended over a destination, without clamping, as light is not rounded to 8 bits. */
 static inline struct vec3 transparency_blend(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
 {
 	struct vec4 c = blend_floats(m, s, d);
@@ -14,7 +14,7 @@ static inline struct vec3 transparency_blend(GLOBAL const struct scene_material 
 	return v3(c.x, c.y, c.z);
 }
 
-/* Transmittance of a blended surface: how much the outcome follows the destination. */
+/* Transmittance of a blended surface: how strongly the result depends on the destination. */
 static inline struct vec3 transparency_of_blend(GLOBAL const struct scene_material *m, struct vec4 color)
 {
 	struct vec3 c = v3_sub(transparency_blend(m, color, v4(1.0f, 1.0f, 1.0f, 1.0f)),
@@ -23,15 +23,15 @@ static inline struct vec3 transparency_of_blend(GLOBAL const struct scene_materi
 	return v3(clamp01(c.x), clamp01(c.y), clamp01(c.z));
 }
 
-/* 1 where GL draws nothing of the primitive at this point: clipped, or its alpha test fails. */
+/* 1 if GL draws nothing of the primitive at this point: it is clipped, or fails the alpha test. */
 static inline int transparency_is_hole(const struct point *p, float alpha)
 {
 	return point_clipped(p) || (p->material->alpha_test && !pixel_compare(p->material->alpha_func, blend_round(alpha),
 	                                                                   blend_round(p->material->alpha_ref)));
 }
 
-/* Unpolarised light that a boundary reflects (Fresnel); eta: index on this side over that beyond, cosine on this
- * side. */
+/* Share of unpolarised light that a boundary reflects (Fresnel). eta: refractive index on this side divided by that
+ * beyond; cosine: on this side. */
 static inline float glass_fresnel(float eta, float cosine, float *cosine_beyond)
 {
 	float k = 1.0f - eta * eta * (1.0f - cosine * cosine), across, along;
@@ -50,25 +50,25 @@ static inline float glass_ior(GLOBAL const struct scene_material *m)
 	return m->surface.ior > 0.0f ? m->surface.ior : 1.0f;
 }
 
-/* 1 where the side of a surface of glass that is seen is its body's outside. */
+/* 1 if the visible side of a glass surface is the outside of its body. */
 static inline int glass_is_outside(const struct point *p)
 {
 	return (p->front != 0) != ((p->material->surface.hidden & SCENE_BACK_OUTSIDE) != 0u);
 }
 
-/* 1 where light that comes to a surface of glass from the side that is seen goes into the body. */
+/* 1 if light that reaches a glass surface from the visible side enters the body. */
 static inline int glass_enters(const struct point *p)
 {
 	return glass_is_outside(p) || p->material->surface.hidden & SCENE_ENTERED;
 }
 
-/* 1 where rays that look for colours pass a surface: rules hide it, or it has none (scene/depths.h). */
+/* 1 if rays that look for colours pass through a surface: rules hide it, or it has no colour (scene/depths.h). */
 static inline int transparency_is_unseen(GLOBAL const struct scene_material *m)
 {
 	return m->surface.hidden & SCENE_HIDDEN_FROM_MIRRORS || !(m->color_mask & 7u);
 }
 
-/* The colour of a surface that lets light through: half of it at each of the two surfaces of a body. */
+/* The colour of a surface that lets light through. Each of a body's two surfaces applies half of it. */
 static inline struct vec3 glass_tint(const struct tables *t, const struct point *p, const struct texturing *texturing)
 {
 	struct vec4 c = point_albedo(t, p, texturing);
@@ -82,12 +82,13 @@ static inline struct vec3 glass_absorb(GLOBAL const struct scene_material *m, fl
 	          M_EXP(-m->surface.absorb[2] * length));
 }
 
-/* Normals that stand across a triangle, to a thousandth, do not tell its sides apart. */
+/* Normals perpendicular to the triangle's own, to within a thousandth, cannot tell its sides apart. */
 #define TRANSPARENCY_ACROSS 1.0e-3f
 
 /*
- * 1 where a ray to a light meets the only side that a surface shows: the light is behind it. Culled sides are not
- * shown; without culling, normals tell the side of a lit triangle (look/spare/sides.h). Both sides of glass count.
+ * 1 if a ray to a light meets a one-sided surface on its visible side, so the light is behind it. Culled sides are not
+ * visible; without culling, normals determine the side of a lit triangle (look/spare/sides.h). Both sides of glass
+ * count.
  */
 static inline int transparency_meets_shown(const struct point *p, struct vec3 d)
 {
@@ -103,8 +104,8 @@ static inline int transparency_meets_shown(const struct point *p, struct vec3 d)
 	       M_ABS(along) > TRANSPARENCY_ACROSS * M_SQRT(v3_dot(sum, sum)) && (along > 0.0f) == (v3_dot(plane, d) < 0.0f);
 }
 
-/* 1 where a surface is spared as a blocker of a light (scene.h): by the side on which it is met, or as the light is at
- * infinity. */
+/* 1 if a surface is exempt from blocking a light (scene.h): because of the side that the ray meets, or because the
+ * light is at infinity. */
 static inline int transparency_is_spared(const struct point *p, struct vec3 d, int at_infinity)
 {
 	const uint32_t hidden = p->material->surface.hidden;
@@ -113,7 +114,7 @@ static inline int transparency_is_spared(const struct point *p, struct vec3 d, i
 	       (hidden & SCENE_ONE_SIDED && !(p->material->surface.transmit > 0.0f) && transparency_meets_shown(p, d));
 }
 
-/* Light that a stippled surface lets through (sec. 3.5.2): as many of its pixels are not drawn. */
+/* Light that a stippled surface lets through (sec. 3.5.2): the share of its pixels that are not drawn. */
 static inline float transparency_of_stipple(const struct tables *t, uint32_t stipple)
 {
 	uint32_t drawn = 0u;
@@ -124,7 +125,7 @@ static inline float transparency_of_stipple(const struct tables *t, uint32_t sti
 	return 1.0f - (float)drawn / 1024.0f;
 }
 
-/* 1 where nothing that a ray to a light meets of a material can let it pass. */
+/* 1 if no part of a material that a ray to a light may hit can let it pass. */
 static inline int transparency_is_none(GLOBAL const struct scene_material *m)
 {
 	return !m->alpha_test && !m->blend && !(m->surface.transmit > 0.0f) && !m->clip_plane_mask &&
@@ -133,8 +134,8 @@ static inline int transparency_is_none(GLOBAL const struct scene_material *m)
 }
 
 /*
- * Transmittance of the surface that a ray hit; 1 where it casts no shadow. to_lights: 1: the ray goes to a light, 0: it
- * looks around
+ * Transmittance of the surface that a ray hit; 1 if it casts no shadow. to_lights: 1: a ray to a light, 0: one to the
+ * surroundings
  */
 static inline struct vec3 transparency_of_hit(const struct tables *t, const struct hit *hit,
                                               GLOBAL const struct ray *ray, uint32_t to_lights)
@@ -174,11 +175,13 @@ static inline struct vec3 transparency_of_hit(const struct tables *t, const stru
 	}
 	if (!m->blend || m->surface.hidden & SCENE_SOLID)
 		return none;
-	/* Blended draws that leave no depth are light or film (glows, blob shadows), nothing that stands in light's way. */
+	/* Blended draws that leave no depth are light or film (glows, blob shadows), which do not block light. */
 	return m->depth_write ? transparency_of_blend(m, color) : all;
 }
 
-/* The place on a ray from where the next surface is looked for: the same ray meets the last one at the same t again. */
+/*
+ * Where on a ray the search for the next surface starts: the same ray would meet the last surface at the same t again.
+ */
 static inline float ray_beyond(float t)
 {
 	return t > 0.0f ? M_FLOAT(M_BITS(t) + 1u) : 1.0e-37f;

@@ -1,7 +1,7 @@
 /*
- * vertex_packet: vertex for sixteen vertices of one instance at once, to the same bits. What packs do not know goes one
- * by one: materials that change from vertex to vertex, colours that are not clamped, coordinates that are generated,
- * and normals whose squares are no normal numbers.
+ * vertex_packet: vertex for sixteen vertices of one instance at once, with bit-identical results. These are processed
+ * one by one: materials that change from vertex to vertex, unclamped colours, generated coordinates, and normals whose
+ * squares are not normal floats.
  */
 #include "kernels/frame/pack_light.h"
 #include "kernels/gl/vertex.h"
@@ -10,18 +10,18 @@
 #include "kernels/gl/vertex_lanes.h"
 #include "kernels/one_lanes.h"
 
-/* Vertices that follow each other. */
+/* Consecutive vertices. */
 struct vertex_pack {
 	__global const struct geometry *g;
 	__global const struct scene_material *m;
-	uint v; /* of the first one, in the mesh */
+	uint v; /* number of the first one in the mesh */
 	struct vec4_16 eye, clip;
 	struct vec3_16 normal;
 };
 
 /* --- Numbers ----------------------------------------------------------------------------------------------------- */
 
-/* Four numbers of each vertex, from and to where they stand, `step` numbers apart. */
+/* Load and store four numbers of each vertex, `step` numbers apart. */
 WIDE_VECTORS static inline void load_fours(__global const float *from, uint step, packf *row)
 {
 	pack_gather_from(from, as_uint16(PACK_LANES) * step, row);
@@ -44,7 +44,7 @@ WIDE_VECTORS static inline void store_fours(struct vec4_16 v, __global float *to
 		*(__global gather_loose *)(to + lane * step) = LANE(four[lane % 4], float4, lane / 4);
 }
 
-/* An attribute of the mesh, or the current one. */
+/* An attribute of the mesh, or the current value. */
 WIDE_VECTORS static inline struct vec4_16 load_attribute(uint is_there, __global const float *array,
                                                          __global const float *current)
 {
@@ -53,13 +53,13 @@ WIDE_VECTORS static inline struct vec4_16 load_attribute(uint is_there, __global
 
 /* --- Places ------------------------------------------------------------------------------------------------------ */
 
-/* As vertex_eye_normal, in the lanes that it returns: those whose normals are not too short to square, or too long. */
+/* vertex_eye_normal for all lanes. @return the lanes whose normals are neither too short nor too long to square */
 WIDE_VECTORS static inline packi load_normals(const struct tables *t, struct vertex_pack *p)
 {
 	struct vec3_16 n = v3_same(v3_load(t->currents[p->g->current].normal));
 	packf row[4], length2, longest;
 
-	/* three numbers each, and what stands before them: positions do before the first */
+	/* three numbers each, loaded with the number before them: before the first normal, that is a position */
 	if (p->g->attributes & SCENE_HAS_NORMAL) {
 		load_fours(t->attributes + p->g->normal + p->v * 3 - 1, 3, row);
 		n = v3_16(row[1], row[2], row[3]);
@@ -74,7 +74,7 @@ WIDE_VECTORS static inline packi load_normals(const struct tables *t, struct ver
 
 /* --- Colours ----------------------------------------------------------------------------------------------------- */
 
-/* light_vertex without visibility */
+/* light_vertex without visibility. */
 WIDE_VECTORS static inline void light_side(const struct tables *t, const struct vertex_pack *p, int back,
                                            struct vec4_16 color, struct lit_16 *out)
 {
@@ -89,7 +89,7 @@ WIDE_VECTORS static inline void light_side(const struct tables *t, const struct 
 	light_end(m, &matter, out);
 }
 
-/* As vertex_store_colors. */
+/* vertex_store_colors for all lanes. */
 WIDE_VECTORS static inline void store_colors(const struct tables *t, const struct vertex_pack *p,
                                              __global struct shaded_vertex *to)
 {
@@ -122,7 +122,7 @@ WIDE_VECTORS static inline void store_colors(const struct tables *t, const struc
 
 /* --- The rest ---------------------------------------------------------------------------------------------------- */
 
-/* vertex_fog_distance, or the mesh's or the current fog coordinate */
+/* vertex_fog_distance, or the fog coordinate of the mesh, or the current one. */
 WIDE_VECTORS static inline packf fog_coord(const struct tables *t, const struct vertex_pack *p)
 {
 	__global const struct geometry *g = p->g;
@@ -134,7 +134,7 @@ WIDE_VECTORS static inline packf fog_coord(const struct tables *t, const struct 
 	return t->currents[g->current].fog_coord;
 }
 
-/* Where a unit's coordinates are not generated. unit: the material's, number i */
+/* Store a unit's coordinates if they are not generated. unit: the material's, number i */
 WIDE_VECTORS static inline void store_coords(const struct tables *t, const struct vertex_pack *p, uint i,
                                              __global float *to)
 {
@@ -148,7 +148,7 @@ WIDE_VECTORS static inline void store_coords(const struct tables *t, const struc
 
 /* --- Sixteen vertices -------------------------------------------------------------------------------------------- */
 
-/* Whether packs know all that a geometry and its material ask for. */
+/* Test whether packs support everything that a geometry and its material need. */
 static inline int knows(const struct tables *t, __global const struct geometry *g)
 {
 	__global const struct scene_material *m = &t->materials[g->material];
@@ -162,7 +162,9 @@ static inline int knows(const struct tables *t, __global const struct geometry *
 	return 1;
 }
 
-/* Vertices of one geometry that packs know. @return 0: a normal's square is no normal number, nothing is stored */
+/*
+ * Process vertices of one supported geometry. @return 0: a normal's square is not a normal float, and nothing is stored
+ */
 WIDE_VECTORS static inline int do_pack(const struct vertex_arguments *a, uint first, __global const struct geometry *g)
 {
 	const struct tables *t = &a->tables;

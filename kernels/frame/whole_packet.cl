@@ -1,6 +1,6 @@
 /*
- * The kernels of a plain frame by packets as one program. PoCL reads 900 KB of its own headers for each program, in
- * every run.
+ * All packet kernels of a plain frame as one program. PoCL reads 900 KB of its own headers for each program, in every
+ * run.
  */
 #include "kernels/camera/camera_packet.cl"
 #include "kernels/frame/compose_packet.cl"

@@ -1,4 +1,4 @@
-/* The kernels of a plain frame by one ray and one pixel a work item as one program: see whole_packet.cl. */
+/* All single-ray, single-pixel kernels of a plain frame as one program: see whole_packet.cl. */
 #include "kernels/camera/camera_wide.cl"
 #include "kernels/frame/compose.cl"
 #include "kernels/frame/plain_single.cl"

@@ -1,7 +1,7 @@
 /*
- * Blending (GL 2.1 sec. 4.1.8) as a frame buffer of 8 bits a channel does it, in integers of 8 bits: the source is
- * rounded before blending, not after. The specification leaves the arithmetic open. This is llvmpipe's (Mesa 22.3.6):
- * trails and clouds of particles blend many times over, and must not drift away from the program's picture.
+ * Blending (GL 2.1 sec. 4.1.8) as in a frame buffer of 8 bits per channel, in 8-bit integers: the source is rounded
+ * before blending, not after. The specification leaves the arithmetic open. This is llvmpipe's (Mesa 22.3.6): trails
+ * and clouds of particles blend many times, and must not drift away from the program's own picture.
  */
 #pragma once
 
@@ -10,7 +10,7 @@
 
 #include "kernels/gl/blend_lanes.h"
 
-/* A source colour over a destination, by a material's factors and equations. */
+/* Blend a source colour over a destination, by a material's factors and equations. */
 static inline struct vec4 blend_colors(GLOBAL const struct scene_material *m, struct vec4 source,
                                        struct vec4 destination)
 {
@@ -73,7 +73,9 @@ static inline struct vec4 blend_floats(GLOBAL const struct scene_material *m, st
 	          blend_float_equation(m->blend_equation_alpha, s.w, as.w, d.w, ad.w));
 }
 
-/* --- Frame buffers of sRGB: as llvmpipe has it both ways (22.3.6, lp_bld_format_srgb.c), to half a code ---------- */
+/*
+ * --- sRGB frame buffers: as in llvmpipe (22.3.6, lp_bld_format_srgb.c) in both directions, to half a code -----------
+ */
 
 static inline float blend_linear_from_code(uint32_t code)
 {
@@ -84,7 +86,7 @@ static inline float blend_linear_from_code(uint32_t code)
 	return code <= 15u ? x * (1.0f / (12.6f * 255.0f)) : M_FMA(odd, x, even);
 }
 
-/* As a share of 255, not rounded. */
+/* In units of 1/255, not rounded. */
 static inline float blend_code_from_linear(float linear)
 {
 	const float x = clamp01(linear), root = M_SQRT(x), power = M_SQRT(M_SQRT(root * x));

@@ -5,7 +5,7 @@ LANES WORD blend_round(REAL x)
 	return AS_WORD(TO_INT(ROUND(clamp01(x) * 255.0f)));
 }
 
-/* A product of two numbers that stand for [0,1]; both products of a sum are rounded before they are added. */
+/* A product of two numbers that represent [0,1]. Both products of a sum are rounded before they are added. */
 LANES WORD blend_multiply(WORD a, WORD b)
 {
 	WORD ab = a * b;
@@ -13,7 +13,7 @@ LANES WORD blend_multiply(WORD a, WORD b)
 	return (ab + (ab >> 8) + 128u) >> 8;
 }
 
-/* The numbers of factors, 0 to 255: a channel of source, destination and constant colour, and their alphas. */
+/* Operands of factors, 0 to 255: a channel of the source, destination and constant colour, and their alphas. */
 struct LANED(blend8) {
 	WORD s, s_alpha, d, d_alpha, c, c_alpha;
 	MASK is_alpha; /* the channel is alpha itself */
@@ -56,7 +56,7 @@ LANES WORD blend_equation(uint32_t equation, WORD s, WORD fs, WORD d, WORD fd)
 	}
 }
 
-/* A channel of a source colour over a destination, by a material's factors and equations. */
+/* Blend a channel of a source colour over a destination, by a material's factors and equations. */
 LANES REAL blend_channel(GLOBAL const struct scene_material *m, int channel, REAL source, WORD s_alpha,
                          REAL destination, WORD d_alpha)
 {

@@ -1,20 +1,20 @@
 /*
- * From clip space to the window (GL 2.1 sec. 2.11, 2.12): where vertices fall, and triangles that leave the view
- * volume.
+ * From clip space to the window (GL 2.1 sec. 2.11, 2.12): window positions of vertices, and clipping of triangles that
+ * leave the view volume.
  *
- * Such a triangle is cut as Mesa's draw module (22.3) cuts it: plane by plane in single precision, the rest fanned out
- * from its first corner. New corners are snapped to 1/256 pixel like all others: edges and depth are those of the
- * parts. The difference shows on a wall that reaches from the horizon to behind the viewer.
+ * Triangles are clipped as in Mesa's draw module (22.3): plane by plane in single precision, and the result is split
+ * into a fan around its first corner. New corners are snapped to 1/256 pixel like all others, and edges and depth are
+ * those of the parts. The difference is visible on a wall that reaches from the horizon to behind the viewer.
  */
 #pragma once
 
 #include "kernels/common.h"
 
-/* Beyond this many pixels a window coordinate is not kept in 1/256 pixel. */
+/* Window coordinates beyond this many pixels are not stored in 1/256 pixel. */
 #define CLIP_SAFE_PIXELS 16384.0f
 #define CLIP_FLOAT_MAX 3.402823466e38f
 #define CLIP_PLANES 6
-#define CLIP_MAX_CORNERS 9 /* a triangle's, and one for each plane */
+#define CLIP_MAX_CORNERS 9 /* three from the triangle, and one for each plane */
 #define CLIP_MAX_CUTS (2 * CLIP_PLANES)
 
 #ifdef __OPENCL_VERSION__
@@ -24,8 +24,8 @@ typedef int64_t clip_area;
 #endif
 
 /*
- * How new corners came about, in this order: corner 3 + i lies at t[i] between corners from[i] and to[i]; 0 to 2 are
- * the triangle's. What is interpolated as Mesa does it goes the same way.
+ * How new corners were made, in this order: corner 3 + i is at t[i] between corners from[i] and to[i]; corners 0 to 2
+ * are the triangle's. Values that Mesa interpolates are interpolated the same way.
  */
 struct clip_cuts {
 	uint32_t n, from[CLIP_MAX_CUTS], to[CLIP_MAX_CUTS];
@@ -35,14 +35,14 @@ struct clip_cuts {
 /* A corner of a clipped triangle. */
 struct clip_corner {
 	struct vec4 clip;
-	uint32_t number;             /* 0 to 2: the triangle's, else see struct clip_cuts */
+	uint32_t number;             /* 0 to 2: the triangle's; higher: see struct clip_cuts */
 	float b1, b2;                /* weights of the triangle's vertices 1 and 2, in the volume */
 	float place[2];              /* in pixels, not snapped, y from the top */
 	struct window_vertex window;
 };
 
 struct clip_polygon {
-	uint32_t n; /* corners; 0: nothing is left */
+	uint32_t n; /* number of corners; 0: nothing is left */
 	struct clip_corner corner[CLIP_MAX_CORNERS];
 	struct clip_cuts cuts;
 };
@@ -51,12 +51,12 @@ struct clip_polygon {
 
 #include "kernels/gl/clip_lanes.h"
 
-/* A place in the window, 1/256 pixel, y from the bottom. */
+/* A window position, in 1/256 pixel, y from the bottom. */
 struct clip_spot {
 	clip_area x, y;
 };
 
-/* Where a view looks in a pixel. */
+/* A view's sample position in a pixel. */
 static inline struct clip_spot clip_spot(GLOBAL const struct view *view, int32_t x, int32_t y)
 {
 	struct clip_spot at;
@@ -67,15 +67,15 @@ static inline struct clip_spot clip_spot(GLOBAL const struct view *view, int32_t
 }
 
 /*
- * Planes count pixels from the first one's centre, as llvmpipe does, but where a pixel has several samples (none of
- * which is its centre): from the window's corner.
+ * Origin of the coordinates of planes: the centre of the first pixel, as in llvmpipe, or the window's corner if pixels
+ * have several samples (none of which is at the centre).
  */
 static inline float clip_origin(GLOBAL const struct view *view)
 {
 	return view->sample[0] | view->sample[1] ? 0.0f : 0.5f;
 }
 
-/* What is linear over a triangle of the window; x and y count pixels from clip_origin, y from the top. */
+/* A function that is linear over a triangle of the window; x and y are in pixels from clip_origin, y from the top. */
 struct clip_plane {
 	float origin, along_x, along_y;
 };
@@ -86,23 +86,23 @@ static inline float clip_place_area(const float *px, const float *py)
 	return (px[0] - px[1]) * (py[2] - py[0]) - (px[2] - px[0]) * (py[0] - py[1]);
 }
 
-/* So thin that only its snapped form counts, which decided about coverage. */
+/* So thin that only its snapped form counts, which determined the coverage. */
 static inline int clip_is_sliver(float area)
 {
 	return !(M_ABS(area) > 1.0e-6f);
 }
 
 /*
- * A triangle as llvmpipe sets it up: its vertices turned so that they run counter-clockwise (y from the top), and two
- * edges. Places are not snapped and count from clip_origin.
+ * A triangle as llvmpipe sets it up: its vertices ordered to run counter-clockwise (y from the top), and two edges.
+ * Positions are not snapped and relative to clip_origin.
  */
 struct clip_edges {
-	int turned; /* 1: vertices 0 and 1 have changed places */
-	float x, y, dx01, dy01, dx20, dy20, one_over_area; /* x, y: the first one's place */
+	int turned; /* 1: vertices 0 and 1 are swapped */
+	float x, y, dx01, dy01, dx20, dy20, one_over_area; /* x, y: position of the first vertex */
 };
 
-/* Of a value at each vertex the first vertex's and the second's, chosen and not looked up: arrays then need no
- * memory. */
+/* The first and the second of three vertex values, selected rather than indexed, so that the array can stay in
+ * registers. */
 static inline float clip_first(const struct clip_edges *e, const float *value)
 {
 	return e->turned ? value[1] : value[0];
@@ -128,7 +128,7 @@ static inline struct clip_edges clip_edges_of(const float *px, const float *py)
 	return e;
 }
 
-/* The plane through a value at each vertex: in llvmpipe's order of operations, through the first one. */
+/* The plane through a value at each vertex, in llvmpipe's order of operations, starting at the first vertex. */
 static inline struct clip_plane clip_plane_through(const struct clip_edges *e, const float *value)
 {
 	const float first = clip_first(e, value), v01 = first - clip_second(e, value), v20 = value[2] - first;
@@ -145,13 +145,13 @@ static inline float clip_plane_at(const struct clip_plane *p, float x, float y)
 	return M_FMA(p->along_y, y, M_FMA(p->along_x, x, p->origin));
 }
 
-/* From clip_origin to where a view looks in a pixel, along one axis. sample: of the view; negative for y. */
+/* Distance from clip_origin to the sample position in a pixel, along one axis. sample: of the view; negated for y. */
 static inline float clip_from_origin(GLOBAL const struct view *view, int32_t pixel, int32_t sample)
 {
 	return (float)pixel + (0.5f - clip_origin(view)) + (float)sample * 0.00390625f;
 }
 
-/* A plane's value where a view looks in a pixel; y from the bottom. */
+/* A plane's value at the sample position in a pixel; y from the bottom. */
 static inline float clip_plane_in(const struct clip_plane *p, GLOBAL const struct view *view, float height, int32_t x,
                                   int32_t y)
 {
@@ -193,8 +193,7 @@ static inline struct clip_corner clip_cut(const struct clip_corner *pool, const 
 	return out;
 }
 
-/* A new corner in the window; unlike vertices it is not placed with fused multiplications. @return 0: it has no
- * place */
+/* Window position of a new corner; unlike for vertices, without fused multiplications. @return 0: it has no place */
 static inline int clip_place_new(GLOBAL const struct view *view, float height, struct clip_corner *c)
 {
 	float near = view->depth_range[0], far = view->depth_range[1], w_inv = 1.0f / c->clip.w;
@@ -208,7 +207,7 @@ static inline int clip_place_new(GLOBAL const struct view *view, float height, s
 	return 1;
 }
 
-/* What the view volume leaves of a triangle. Its parts are corners k - 1, k and 0 for k from 2 on. */
+/* Clip a triangle by the view volume. Its parts are corners k - 1, k and 0 for k from 2 on. */
 static inline void clip_triangle(GLOBAL const struct view *view, float height, struct vec4 c0, struct vec4 c1,
                                  struct vec4 c2, struct clip_polygon *out)
 {
@@ -240,11 +239,11 @@ static inline void clip_triangle(GLOBAL const struct view *view, float height, s
 			int crosses = d_last >= 0.0f ? d < 0.0f : !(d < 0.0f);
 
 			if (n_left + 2u > CLIP_MAX_CORNERS + 1u || cuts->n == CLIP_MAX_CUTS || !(M_ABS(d) <= CLIP_FLOAT_MAX))
-				return; /* infinite, no number, or rounding has made it cross a plane again and again */
+				return; /* infinite, NaN, or crossing a plane repeatedly because of rounding */
 			if (d_last >= 0.0f)
 				lists[!now][n_left++] = last;
 			if (crosses) {
-				/* from the corner that is nearer to the plane */
+				/* interpolate from the corner nearer to the plane */
 				int from_next = d < 0.0f ? -d < d_last : !(-d_last < d);
 
 				cuts->from[cuts->n] = from_next ? next : last;
@@ -279,19 +278,19 @@ static inline void clip_triangle(GLOBAL const struct view *view, float height, s
 
 /* --- Its parts --------------------------------------------------------------------------------------------------- */
 
-/* The triangle under a fragment, or the part of a cut one that covers its pixel: what its attributes are interpolated
- * from. */
+/* The triangle under a fragment, or the part of a clipped one that covers its pixel: the source of interpolated
+ * attributes. */
 struct clip_setup {
 	struct clip_corner corner[3];
-	float px[3], py[3]; /* their places, from clip_origin */
+	float px[3], py[3]; /* window positions, relative to clip_origin */
 	struct clip_edges edges;
 	struct clip_plane w_inv;
 	struct clip_cuts cuts;
 };
 
 /*
- * Weights of the triangle's vertices 1 and 2 in the volume, from weights on the screen in a part of it.
- * b1, b2: of the part's corners 1 and 2
+ * Weights of the triangle's vertices 1 and 2 in the volume, from screen weights in one of its parts. b1, b2: of the
+ * part's corners 1 and 2
  */
 static inline void clip_weights(const struct clip_corner *v0, const struct clip_corner *v1,
                                 const struct clip_corner *v2, float b1, float b2, float *out1, float *out2)
@@ -311,7 +310,7 @@ static inline int clip_inside(struct window_vertex a, struct window_vertex b, in
 	return e > 0 || (e == 0 && (dy < 0 || (dy == 0 && dx > 0)));
 }
 
-/* 1 where a part covers a place (kernels/camera/camera.h). */
+/* 1 if a part covers a place (kernels/camera/camera.h). */
 static inline int clip_covers(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2,
                               struct clip_spot at)
 {
@@ -322,8 +321,8 @@ static inline int clip_covers(struct window_vertex v0, struct window_vertex v1, 
 }
 
 /*
- * The plane of a triangle's depth. corner: NULL, or its three corners where it is part of one that was cut; else clip[]
- * and the windows' z. @return 0: a sliver
+ * The plane of a triangle's depth. corner: NULL, or its three corners if it is part of a clipped triangle; otherwise
+ * clip[] and the windows' z are used. @return 0: a sliver
  */
 static inline int clip_depth_plane(GLOBAL const struct view *view, float height,
                                    const struct clip_corner *const *corner, const struct vec4 *clip, const float *z,

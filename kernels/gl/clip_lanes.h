@@ -1,6 +1,6 @@
-/* Vertices in the window (clip.h, one_lanes.h). All lanes have one view. */
+/* Vertices in the window (clip.h, one_lanes.h). All lanes share one view. */
 
-/* Where a vertex falls in the window, in pixels, y from the top: Mesa draws to a window with y running down. */
+/* Window position of a vertex, in pixels, y from the top: Mesa draws to a window with y pointing down. */
 LANES void clip_place(GLOBAL const struct view *view, VEC4 clip, float height, REAL *place)
 {
 	const float half_x = view->viewport[2] * 0.5f, half_y = view->viewport[3] * 0.5f;
@@ -10,7 +10,7 @@ LANES void clip_place(GLOBAL const struct view *view, VEC4 clip, float height, R
 	place[1] = M_FMA(SAME(-half_y), clip.y * w_inv, SAME(height - (view->viewport[1] + half_y)));
 }
 
-/* The planes that a point lies beyond, a bit each in the order in which they cut. */
+/* The planes that a point is outside of: a bit for each, in clipping order. */
 LANES WORD clip_outside(VEC4 c)
 {
 	const WORD none = (WORD)(0u);
@@ -26,8 +26,8 @@ LANES MASK clip_is_safe(const REAL *place)
 }
 
 /*
- * Window coordinates in 1/256 pixel. Rounding of halves follows Mesa's direction of y: it is snapped so, and turned
- * over.
+ * Window coordinates in 1/256 pixel. Halves round in Mesa's direction of y: values are snapped in that direction, then
+ * flipped.
  */
 LANES struct LANED(window_vertex) clip_snap(const REAL *place, REAL z, REAL w_inv, float height)
 {
@@ -40,7 +40,7 @@ LANES struct LANED(window_vertex) clip_snap(const REAL *place, REAL z, REAL w_in
 	return out;
 }
 
-/* A vertex of the program's in the window; all 0 where it lies outside of the view volume. */
+/* Window vertex of one of the program's vertices; all 0 if it is outside the view volume. */
 LANES struct LANED(window_vertex) clip_window(GLOBAL const struct view *view, VEC4 clip, float height)
 {
 	const float near = view->depth_range[0], far = view->depth_range[1];

@@ -4,7 +4,7 @@
 #include "gl_tokens.h"
 #include "kernels/common.h"
 
-/* Which of colour and alpha a texture of this base format changes (table 3.20: the others pass). */
+/* Whether a texture of this base format changes colour and alpha (table 3.20; the others pass through). */
 static inline int combine_has_color(uint32_t base_format)
 {
 	return base_format != GL_ALPHA;
@@ -16,7 +16,7 @@ static inline int combine_has_alpha(uint32_t base_format)
 	       base_format == GL_RGBA;
 }
 
-/* Functions to clamp after: Mesa does so where they can leave [0,1] although their arguments do not. */
+/* Functions whose result must be clamped. Mesa clamps those that can leave [0,1] even if their arguments do not. */
 static inline int combine_leaves_range(uint32_t function)
 {
 	return function != GL_REPLACE && function != GL_MODULATE && function != GL_INTERPOLATE;

@@ -1,4 +1,4 @@
-/* Texture environments and combiners (combine.h, one_lanes.h). All lanes have one unit. */
+/* Texture environments and combiners (combine.h, one_lanes.h). All lanes share one unit. */
 
 /* The environments of tables 3.22 and 3.23; p: previous, s: texture, e: the unit's colour. */
 LANES VEC4 combine_plain(uint32_t mode, uint32_t format, VEC4 p, VEC4 s, VEC4 e)
@@ -42,7 +42,7 @@ LANES VEC4 combine_plain(uint32_t mode, uint32_t format, VEC4 p, VEC4 s, VEC4 e)
 	return mode == GL_ADD ? v4_clamp01(out) : out;
 }
 
-/* One argument; `alpha` asks for what feeds the alpha equation (w of the result). samples: of all enabled units. */
+/* One argument; `alpha` selects the input of the alpha equation (w of the result). samples: of all enabled units. */
 LANES VEC4 combine_argument(uint32_t source, uint32_t operand, VEC4 previous, VEC4 texture, VEC4 primary, VEC4 own,
                             const VEC4 *samples)
 {
@@ -100,7 +100,7 @@ LANES VEC4 combine_function(uint32_t function, VEC4 a, VEC4 b, VEC4 c)
 	}
 }
 
-/* The sums of NV_texture_env_combine4 are of two products; its other functions are those of COMBINE. */
+/* In NV_texture_env_combine4, sums have two products; its other functions are those of COMBINE. */
 LANES VEC4 combine_function4(uint32_t function, const VEC4 *arguments)
 {
 	if (function != GL_ADD && function != GL_ADD_SIGNED)
@@ -118,7 +118,7 @@ LANES VEC4 combine_scaled(VEC4 color, uint32_t function, float scale)
 	return combine_leaves_range(function) || scale != 1.0f ? v4_clamp01(color) : color;
 }
 
-/* DOT3_RGBA gives alpha, too, which has its own scale nevertheless. */
+/* DOT3_RGBA also produces alpha, which nevertheless has its own scale. */
 LANES VEC4 combine_full(GLOBAL const struct scene_unit *unit, VEC4 previous, VEC4 texture, VEC4 primary,
                         const VEC4 *samples)
 {

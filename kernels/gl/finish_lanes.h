@@ -1,16 +1,15 @@
-/* The end of GL's fragment stage (fragment.h, one_lanes.h). All lanes have one material. */
+/* The end of GL's fragment stage (fragment.h, one_lanes.h). All lanes share one material. */
 
-/* Linear fog (sec. 3.10). Where it has no length the specification says nothing: Mesa (22.3.6) has c - end. */
+/* Linear fog (sec. 3.10). The specification does not define fog of zero length; Mesa (22.3.6) uses c - end. */
 LANES REAL fog_linear(GLOBAL const struct scene_material *m, REAL c)
 {
 	return clamp01(m->fog_end == m->fog_start ? c - m->fog_end : (m->fog_end - c) / (m->fog_end - m->fog_start));
 }
 
 /*
- * Texture environments, colour sum and fog over a lit colour; clamped after all of them, as Mesa (22.3.6) does, where
- * sec. 3.9 clamps the sum before the fog.
- * sample: by GL's unit number; fog: 1 leaves the colour as it is
- * without: 1 + the number of a unit that is passed by; 0: none
+ * Texture environments, colour sum and fog applied to a lit colour. The result is clamped once at the end, as in Mesa
+ * (22.3.6), where sec. 3.9 clamps the sum before the fog. sample: indexed by GL's unit number; fog: 1 leaves the colour
+ * without fog; without: 1 + the index of a unit to skip; 0: none
  */
 LANES VEC4 finish_in_fog(const struct tables *t, GLOBAL const struct scene_material *m, const VEC4 *sample,
                          const struct LANED(lit) *lit, REAL fog, uint32_t without)

@@ -7,13 +7,16 @@
 #include "kernels/gl/point.h"
 #include "kernels/gl/texture.h"
 
-/* Texturing of a point, and its fog: all of its colour that light has no part in. */
+/* Texturing of a point, and its fog: the parts of its colour that do not depend on lighting. */
 struct texturing {
-	struct vec4 sample[SCENE_MAX_UNITS]; /* by GL's unit number */
+	struct vec4 sample[SCENE_MAX_UNITS]; /* indexed by GL's unit number */
 	float fog_factor;
 };
 
-/* Base format that environments go by: depths count as what they are sampled as (sec. 3.8.14). */
+/*
+ * Base format that selects the environment's equations; depth textures count as the format they are sampled as (sec.
+ * 3.8.14).
+ */
 static inline uint32_t point_unit_format(const struct tables *t, GLOBAL const struct scene_unit *unit)
 {
 	uint32_t format = t->textures[unit->texture].base_format;
@@ -34,15 +37,15 @@ static inline struct vec4 point_texcoord(const struct tables *t, const struct po
 	return c;
 }
 
-/* Texture coordinates of a fragment's triangle, or other four numbers of its vertices, divided by w: linear in the
+/* Texture coordinates of a fragment's triangle, or any four numbers of its vertices, divided by w: linear in the
  * window. */
 struct point_planes {
 	struct clip_plane s, t, r, q, w_inv;
 };
 
 /*
- * As llvmpipe finds them, last bits and all: nearest filtering shows these where a texel's border runs along pixel
- * centres. pool: begins with the vertices' numbers; receives those of corners that cuts have made
+ * As in llvmpipe, to the last bit: nearest filtering makes these bits visible if a texel border runs along pixel
+ * centres. pool: starts with the vertices' numbers; receives those of corners made by clipping
  */
 static inline void point_planes_between(struct vec4 *pool, const struct clip_setup *setup, struct point_planes *planes)
 {
@@ -76,7 +79,7 @@ static inline void point_texcoord_planes(const struct tables *t, const struct po
 	point_planes_between(pool, setup, planes);
 }
 
-/* The numbers at any pixel. x, y: from clip_origin, y from the top */
+/* The numbers at a pixel. x, y: from clip_origin, y from the top */
 static inline struct vec4 point_planes_at(const struct point_planes *planes, float x, float y)
 {
 	float w = 1.0f / clip_plane_at(&planes->w_inv, x, y);
@@ -86,14 +89,14 @@ static inline struct vec4 point_planes_at(const struct point_planes *planes, flo
 }
 
 /*
- * What sampling the first unit's texture has found of a triangle, for its next fragment. Lists of fragments go along
- * rows of eight pixels: four quads, which the next row has as well.
+ * Results of sampling the first unit's texture in a triangle, cached for its next fragment. Fragment lists follow rows
+ * of eight pixels: four quads, which the next row shares.
  */
 #define POINT_KEPT_QUADS 4u
 struct point_kept {
 	int have_planes;
 	struct point_planes planes;
-	uint32_t quad[POINT_KEPT_QUADS]; /* which ones, row << 16 | column; SCENE_NONE: none */
+	uint32_t quad[POINT_KEPT_QUADS]; /* their positions, row << 16 | column; SCENE_NONE: empty */
 	struct texture_slope slope[POINT_KEPT_QUADS];
 };
 
@@ -104,18 +107,18 @@ static inline void point_keep_nothing(struct point_kept *kept)
 		kept->quad[i] = SCENE_NONE;
 }
 
-/* A line by its ends, which its corners carry (tracer/frame/expand_line.c): x, y from the top, depth, 1 at the second
- * one. */
+/* A line, given by its ends, which its corners carry (tracer/frame/expand_line.c): x, y from the top, depth, 1 at the
+ * second end. */
 struct point_line {
 	struct vec4 a, b;
-	int second[3]; /* corners at the second end */
+	int second[3]; /* 1 for corners at the second end */
 	float dx, dy, one_over_area;
 };
 
 /*
- * Attributes change along the line's longer axis only, in llvmpipe's order of operations, and go on beyond its ends.
- * Under multisampling all of the line's direction counts; llvmpipe then takes the ends half a pixel off, but not the
- * places that it asks for.
+ * Attributes change only along the line's longer axis, in llvmpipe's order of operations, and continue beyond its ends.
+ * Under multisampling, the line's actual direction is used; llvmpipe then shifts the ends by half a pixel, but not the
+ * sample positions.
  */
 static inline void point_line_of(const struct point *p, GLOBAL const struct view *view, struct point_line *l)
 {
@@ -135,7 +138,7 @@ static inline void point_line_of(const struct point *p, GLOBAL const struct view
 	dy = l->a.y - l->b.y;
 	l->one_over_area = 1.0f / (dx * dx + dy * dy);
 	if (view->sample[0] | view->sample[1]) {
-		/* as it is */
+		/* unchanged */
 	} else if (M_ABS(dx) >= M_ABS(dy)) {
 		dx *= 1.0f + (dy / dx) * (dy / dx);
 		dy = 0.0f;
@@ -147,8 +150,8 @@ static inline void point_line_of(const struct point *p, GLOBAL const struct view
 	l->dy = dy;
 }
 
-/* Weights at any place, in the window: the second end's share goes to one of its corners. x, y: from clip_origin, y
- * from the top */
+/* Weights at any window position. The second end's share goes to one of its corners. x, y: from clip_origin, y from the
+ * top */
 static inline void point_line_weights(const struct point_line *l, float x, float y, struct fragment *f)
 {
 	float share = -(l->dx * l->one_over_area * (x - (l->a.x - 0.5f)) + l->dy * l->one_over_area * (y - (l->a.y - 0.5f)));
@@ -163,8 +166,8 @@ static inline void point_line_weights(const struct point_line *l, float x, float
 }
 
 /*
- * Object-space weights at the middle of any pixel: of the triangle's plane (clip-space edge functions: nothing to
- * clip), or of a line. x, y: the pixel, y from the top
+ * Object-space weights at the centre of any pixel: of the triangle's plane (by clip-space edge functions, so nothing
+ * needs clipping), or of a line. x, y: the pixel, y from the top
  */
 static inline void point_weights_at(const struct point *p, GLOBAL const struct view *view, float x, float y,
                                     uint32_t height, float *weight)
@@ -194,7 +197,7 @@ static inline void point_weights_at(const struct point *p, GLOBAL const struct v
 		weight[i] *= sum;
 }
 
-/* Sec. 3.10. */
+/* Fog (sec. 3.10). */
 static inline float point_fog(const struct point *p)
 {
 	GLOBAL const struct scene_material *m = p->material;
@@ -208,22 +211,22 @@ static inline float point_fog(const struct point *p)
 	return clamp01(M_EXP(-m->fog_density * c));
 }
 
-/* Where a fragment lies in its window, and what is known of its triangle. */
+/* A fragment's position in its window, and data of its triangle. */
 struct point_window {
 	GLOBAL const struct view *view;
-	const struct clip_setup *setup; /* NULL: it is of no triangle */
-	struct point_kept *kept;        /* NULL, or what earlier fragments of the same triangle have left */
-	uint32_t x, row, height;        /* its pixel, row 0 at the bottom; of the window */
+	const struct clip_setup *setup; /* NULL: it belongs to no triangle */
+	struct point_kept *kept;        /* NULL, or the cache that earlier fragments of the same triangle filled */
+	uint32_t x, row, height;        /* its pixel, row 0 at the bottom; height of the window */
 };
 
-/* The quad of pixels that llvmpipe takes slopes from: even columns, even rows counted from the top. */
+/* The pixel quad that llvmpipe takes slopes from: it starts at an even column and an even row counted from the top. */
 struct point_quad {
-	float x, y, middle;  /* middle: from there to where planes count from */
+	float x, y, middle;  /* middle: distance from there to the origin of planes */
 	int have_weights;
-	float weight[3][3];  /* of points that are of no triangle's setup */
+	float weight[3][3];  /* for points without a triangle's setup */
 };
 
-/* Texture coordinates of unit i. planes: receives what they follow, where there is a setup */
+/* Texture coordinates of unit i. planes: receives their planes, if there is a setup */
 static inline struct vec4 point_unit_coord(const struct tables *t, const struct point *p, uint32_t i,
                                            const struct point_window *w, const struct point_quad *quad,
                                            struct point_planes *planes)
@@ -244,7 +247,7 @@ static inline struct vec4 point_unit_coord(const struct tables *t, const struct 
 	return point_planes_at(planes, (float)w->x + quad->middle, (float)(w->height - 1u - w->row) + quad->middle);
 }
 
-/* Their slopes. planes: as above */
+/* Slopes of these coordinates. planes: as above */
 static inline struct texture_slope point_unit_slope(const struct tables *t, const struct point *p, uint32_t i,
                                                     const struct point_window *w, struct point_quad *quad,
                                                     const struct point_planes *planes)
@@ -280,7 +283,7 @@ static inline struct texture_slope point_unit_slope(const struct tables *t, cons
 	                     point_texcoord(t, p, i, quad->weight[2]));
 }
 
-/* Sample a point's textures. w: NULL for secondary hits, which have no neighbours: their finest level is taken. */
+/* Sample a point's textures. w: NULL for secondary hits, which have no neighbouring pixels and use the finest level. */
 static inline void point_texture(const struct tables *t, const struct point *p, const struct point_window *w,
                                  struct texturing *texturing)
 {
@@ -313,7 +316,7 @@ static inline struct vec4 point_finish(const struct tables *t, const struct poin
 	return finish_in_fog(t, p->material, texturing->sample, lit, texturing->fog_factor, 0u);
 }
 
-/* The same without light that a texture holds. */
+/* The same, without light that is baked into a texture. */
 static inline struct vec4 point_finish_relit(const struct tables *t, const struct point *p,
                                              const struct texturing *texturing, const struct lit *lit)
 {
@@ -321,7 +324,7 @@ static inline struct vec4 point_finish_relit(const struct tables *t, const struc
 	                     p->material->surface.light_unit);
 }
 
-/* The surface's own colour under white light: what the albedo channel shows. lit: point_lit_from_vertices */
+/* The surface's own colour under white light, as shown by the albedo channel. lit: point_lit_from_vertices */
 static inline struct vec4 point_albedo_of(const struct tables *t, const struct point *p,
                                           const struct texturing *texturing, struct lit lit)
 {

@@ -1,7 +1,7 @@
 /*
- * Sine, cosine, powers and logarithms of programs, to the last bit of llvmpipe's (Mesa 22.3.6, lp_bld_arit.c) on
- * processors that multiply and add at once: places and depths may be made of them. Cephes' sinf and cosf, and
- * polynomials of Mesa's own.
+ * Sine, cosine, powers and logarithms for programs, matching the last bit of llvmpipe's (Mesa 22.3.6, lp_bld_arit.c) on
+ * processors with fused multiply-add, since positions and depths may depend on them. Cephes' sinf and cosf, and Mesa's
+ * own polynomials.
  */
 #pragma once
 
@@ -16,7 +16,7 @@
 #define FUNCTION_LEAST_EXPONENT -126.99999f
 #define FUNCTION_MOST_EXPONENT 128.0f
 
-/* Factors: of eighths of a turn, in three parts; of the sine's and the cosine's polynomials in the square. */
+/* Constants: eighths of a turn, in three parts; polynomials of sine and cosine in the square. */
 #define TURN_EIGHTHS 1.27323954473516f
 #define TURN_PART0 -0.78515625f
 #define TURN_PART1 -2.4187564849853515625e-4f
@@ -28,7 +28,7 @@
 #define TURN_COSINE1 -1.388731625493765e-3f
 #define TURN_COSINE2 4.166664568298827e-2f
 
-/* 2 to the power of [0, 1[ */
+/* 2 to a power in [0, 1[ */
 #define EXP2_FACTOR1 0.693153073200168932794f
 #define EXP2_FACTOR2 0.240153617044375388211f
 #define EXP2_FACTOR3 0.0558263180532956664775f

@@ -28,7 +28,7 @@ LANES REAL function_exp2(REAL a)
 	return CHOOSE(x == x, OF_BITS(AS_WORD(TO_INT(whole) + 127) << 23) * M_FMA(odd, f, even), a);
 }
 
-/* What is not normal counts as 0, as llvmpipe has the processor take it. */
+/* Subnormal values count as 0, as llvmpipe sets the processor to treat them. */
 LANES REAL function_log2(REAL a)
 {
 	const WORD bits = BITS(a), exponent = bits & 0x7f800000u;
@@ -40,7 +40,7 @@ LANES REAL function_log2(REAL a)
 	return CHOOSE(exponent == 0u, SAME(-INFINITY), CHOOSE(a > 0.0f, CHOOSE(a < INFINITY, v, a), SAME(FUNCTION_NAN)));
 }
 
-/* 0 to any power is 0, to that of 0 as well (lp_build_pow); what is not normal counts as 0. */
+/* 0 to any power is 0, even 0 to the power of 0 (lp_build_pow); subnormal values count as 0. */
 LANES REAL function_power(REAL a, REAL b)
 {
 	return CHOOSE((BITS(a) & 0x7f800000u) == 0u, SAME(0.0f), function_exp2(function_log2(a) * b));

@@ -1,7 +1,7 @@
 /*
- * exp(-2 k / 1023) for k = 0 .. 1023: the weights of texels in an elliptic footprint (kernels/gl/texture.h). A table,
- * as Mesa has one, so that vectors and single points weigh alike on every device. Each is within a unit in the last
- * place, as PoCL 3.1 computes it.
+ * exp(-2 k / 1023) for k = 0 .. 1023: the weights of texels in an elliptic footprint (kernels/gl/texture.h). Mesa uses
+ * a table as well; with it, vectors and single points get the same weights on every device. Each entry is within one
+ * unit in the last place, as computed by PoCL 3.1.
  */
 #pragma once
 

@@ -1,6 +1,6 @@
 /*
- * Programs of a draw, run instruction by instruction (scene/program.h), for four fragments or vertices at once. This is
- * what both stages share: program.h runs fragments, vertex_program.h vertices.
+ * Runs the programs of a draw, instruction by instruction (scene/program.h), for four fragments or vertices at once.
+ * This file has what both stages share: program.h runs fragments, vertex_program.h vertices.
  */
 #pragma once
 
@@ -16,7 +16,7 @@
 #define M_STORE_ONE(place) __atomic_store_n(place, 1u, __ATOMIC_RELAXED)
 #endif
 
-/* A program in the words of scene.programs. */
+/* A program, as encoded in scene.programs. */
 struct program {
 	GLOBAL const struct scene_program *head;
 	GLOBAL const struct scene_instruction *instructions;
@@ -24,14 +24,14 @@ struct program {
 	GLOBAL const float *constants;
 };
 
-/* One that runs. Registers hold a number for each of the four. */
+/* A running program. Registers hold a number for each of the four. */
 struct program_run {
-	uint32_t wanted; /* bits: those of the four whose results count */
-	uint32_t killed; /* bits: those that were discarded */
-	uint32_t lanes;  /* bits: those that are computed; numbers of the others mean nothing */
-	uint32_t mask;   /* bits, of `lanes`: those that take part */
-	uint32_t steps;  /* of loops that are left to run */
-	uint32_t ended;  /* 1: there were none left */
+	uint32_t wanted; /* mask of those of the four whose results are used */
+	uint32_t killed; /* mask of those that were discarded */
+	uint32_t lanes;  /* mask of those that are computed; the others' numbers are undefined */
+	uint32_t mask;   /* mask of those in `lanes` that are active */
+	uint32_t steps;  /* number of loop iterations still allowed */
+	uint32_t ended;  /* 1: the limit was reached */
 	struct vec4 registers[SCENE_PROGRAM_REGISTERS];
 };
 
@@ -46,14 +46,14 @@ static inline struct program program_at(GLOBAL const uint32_t *words)
 	return program;
 }
 
-/* Say of a program that a run of it was ended, where that is so. words: its own */
+/* Record in a program that a run of it hit the loop limit, if it did. words: the program's own */
 static inline void program_note_ended(GLOBAL uint32_t *words, uint32_t ended)
 {
 	if (ended)
 		M_STORE_ONE(&((GLOBAL struct scene_program *)words)->ended);
 }
 
-/* The registers of a fragment's colour. output: scene.output */
+/* First register of a fragment's colour. output: scene.output */
 static inline uint32_t program_color(const struct program *program, uint32_t output)
 {
 	return output < program->head->n_data ? program->head->data + 4u * output : SCENE_PROGRAM_COLOR;
@@ -69,7 +69,7 @@ static inline struct vec4 program_splat(float x)
 	return v4(x, x, x, x);
 }
 
-/* seen: NULL, or how much of each light of the material's list arrives */
+/* seen: NULL, or how much of each of the material's lights arrives */
 static inline void program_begin(struct program_run *run, const struct program *program, uint32_t wanted,
                                  const struct vec3 *seen)
 {
@@ -92,7 +92,7 @@ static inline void program_begin(struct program_run *run, const struct program *
 	}
 }
 
-/* Set the four registers from `first` on, for number k of the four. */
+/* Set four registers, starting at `first`, for number k of the four. */
 static inline void program_set(struct program_run *run, uint32_t first, uint32_t k, struct vec4 value)
 {
 	float from[4];
@@ -115,7 +115,7 @@ static inline void program_set(struct program_run *run, uint32_t first, uint32_t
 	}
 }
 
-/* And read them. */
+/* Read four registers. */
 static inline struct vec4 program_get(const struct program_run *run, uint32_t first, uint32_t k)
 {
 	const struct vec4 *r = &run->registers[first];
@@ -123,7 +123,7 @@ static inline struct vec4 program_get(const struct program_run *run, uint32_t fi
 	return v4(program_of_four(r[0], k), program_of_four(r[1], k), program_of_four(r[2], k), program_of_four(r[3], k));
 }
 
-/* Number `place` of an operand for the four. */
+/* Component `place` of an operand for all four. */
 static inline struct vec4 program_operand(const struct program_run *run, const struct program *program,
                                           uint32_t operand, uint32_t place, uint32_t negate)
 {
@@ -163,7 +163,7 @@ static inline float program_number(uint32_t operation, float a, float b)
 	}
 }
 
-/* lanes: as of struct program_run */
+/* lanes: as in struct program_run */
 static inline struct vec4 program_result(uint32_t operation, struct vec4 a, struct vec4 b, struct vec4 c,
                                          uint32_t lanes)
 {
@@ -186,7 +186,7 @@ static inline struct vec4 program_result(uint32_t operation, struct vec4 a, stru
 	}
 }
 
-/* Keep a result for those that take part. */
+/* Store a result for the active lanes. */
 static inline void program_keep(struct program_run *run, uint32_t place, struct vec4 v, uint32_t mask)
 {
 	struct vec4 *r = &run->registers[place];
@@ -197,13 +197,13 @@ static inline void program_keep(struct program_run *run, uint32_t place, struct 
 		*r = v4(mask & 1u ? v.x : r->x, mask & 2u ? v.y : r->y, mask & 4u ? v.z : r->z, mask & 8u ? v.w : r->w);
 }
 
-/* Of whom a number is true, a bit each. */
+/* A bit for each lane whose number is true. */
 static inline uint32_t program_true(struct vec4 a)
 {
 	return (a.x != 0.0f ? 1u : 0u) | (a.y != 0.0f ? 2u : 0u) | (a.z != 0.0f ? 4u : 0u) | (a.w != 0.0f ? 8u : 0u);
 }
 
-/* One of the four's element of an array. */
+/* An array element, indexed by one of the four. */
 static inline float program_element(const struct program_run *run, const struct program *program,
                                     GLOBAL const struct scene_instruction *in, uint32_t i, uint32_t k, float element)
 {
@@ -271,7 +271,7 @@ static inline uint32_t program_turn(struct program_run *run, const struct progra
 	return in->to - 1u;
 }
 
-/* An instruction of numbers, each by itself. */
+/* An instruction that computes numbers independently for each of the four. */
 static inline void program_compute(struct program_run *run, const struct program *program,
                                    GLOBAL const struct scene_instruction *in)
 {
@@ -298,8 +298,8 @@ static inline void program_compute(struct program_run *run, const struct program
 }
 
 /*
- * Run instructions from number `at` on, up to one that is the stage's own (TEXTURE), to the end, or until nobody is
- * left whose result counts.
+ * Run instructions from number `at` on, until one that belongs to the stage (TEXTURE), the end, or until no lane is
+ * left whose result is used.
  * @return the number of that instruction; n_instructions: the program has ended
  */
 static inline uint32_t program_run_from(struct program_run *run, const struct program *program, uint32_t at)

@@ -1,13 +1,13 @@
 /*
  * GL's lighting of one vertex (GL 2.1 sec. 2.14.1 and 2.14.3). The same text lights a vertex for the rasterized picture
- * and again with the shadowed lights left out: with none left out the results are the same bits.
+ * and again without the shadowed lights; if no light is shadowed, both results have the same bits.
  */
 #pragma once
 
 #include "gl_tokens.h"
 #include "kernels/common.h"
 
-/* Lights that stand side by side in the frame's. */
+/* A range of lights in the frame's list. */
 struct light_list {
 	uint32_t first, count;
 };
@@ -21,7 +21,7 @@ static inline struct light_list light_list(uint32_t first, uint32_t count)
 	return list;
 }
 
-/* Place of a light, or the direction to one at infinity. */
+/* Position of a light, or the direction to one at infinity. */
 static inline struct vec3 light_place(GLOBAL const struct scene_light *light)
 {
 	const float w = light->position_eye[3];
@@ -30,8 +30,8 @@ static inline struct vec3 light_place(GLOBAL const struct scene_light *light)
 }
 
 /*
- * 1 where Mesa (22.3.6, ffvertex_prog.c) raises the cosine to the light to its own power in place of a highlight's:
- * no material's highlight has a power, and the light's strength differs from place to place.
+ * 1 if Mesa (22.3.6, ffvertex_prog.c) raises the cosine to the light to the light's own power instead of a highlight's.
+ * That happens if no highlight of the material has a power, and the light's strength varies with position.
  */
 static inline int light_is_own_power(GLOBAL const struct scene_material *m, GLOBAL const struct scene_light *light)
 {
@@ -47,12 +47,12 @@ static inline int light_is_own_power(GLOBAL const struct scene_material *m, GLOB
  * Light one side of a vertex.
  *
  * eye     the vertex in eye space, homogeneous
- * normal  of the side to be lit
+ * normal  normal of the lit side
  * face    the side's material
  * vertex_color  the current colour at the vertex, for color material
- * list    lights[list.first .. +list.count) light it, whatever the material says
- * matte_only  1: of the material only the vertex colour counts
- * seen    NULL, or each light's visibility: the share of its diffuse and specular light that counts
+ * list    lights[list.first .. +list.count) light it, regardless of the material
+ * matte_only  1: only the vertex colour of the material is used
+ * seen    NULL, or each light's visibility: the share of its diffuse and specular light that arrives
  */
 static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLOBAL const struct scene_light *lights,
                                       struct light_list list, int matte_only, struct vec4 eye, struct vec3 normal,
@@ -70,6 +70,6 @@ static inline struct lit light_vertex(GLOBAL const struct scene_material *m, GLO
 	for (uint32_t i = 0u; i < list.count; i++)
 		light_add(m, &matter, &lights[list.first + i], i, seen ? &seen[i] : (const struct vec3 *)0, &sum);
 	light_end(m, &matter, &sum);
-	out = sum; /* compilers keep what is returned in memory, and no sum there */
+	out = sum; /* summed in a local variable, as compilers keep a returned struct in memory */
 	return out;
 }

@@ -1,20 +1,20 @@
-/* GL's lighting of vertices or points (light.h, one_lanes.h). All lanes have one material and the same lights. */
+/* GL's lighting of vertices or points (light.h, one_lanes.h). All lanes share one material and the same lights. */
 
 struct LANED(lit) {
-	VEC4 color, secondary; /* clamped; secondary is 0 unless the specular colour is kept apart */
-	WORD lights;           /* bit i: light i of the list adds diffuse or specular light that something may stop */
+	VEC4 color, secondary; /* clamped; secondary is 0 unless the specular colour is separate */
+	WORD lights;           /* bit i: light i of the list adds diffuse or specular light, which can be shadowed */
 };
 
-/* A vertex or point to be lit: its colours under white light, and where it looks. */
+/* A vertex or point to light: its colours under white light, and its direction. */
 struct LANED(matter) {
 	VEC4 ambient, diffuse, specular;
 	REAL shininess;
 	VEC3 at, normal, to_viewer;
-	MASK is_long; /* the normal: a highlight's power may be no number */
+	MASK is_long; /* the normal is too long: a highlight's power may be NaN */
 };
 
-/* Spot factor for the unit vector towards the light (equation in sec. 2.14.1). On the very edge of its cone Mesa
- * (22.3.6) has no light. */
+/* Spot factor for the unit vector towards the light (equation in sec. 2.14.1). Exactly on the edge of the cone, Mesa
+ * (22.3.6) gives no light. */
 LANES REAL light_spot(GLOBAL const struct scene_light *light, VEC3 to_light)
 {
 	const VEC3 axis = SAME3(v3_normalize(v3_load(light->spot_direction_eye)));
@@ -28,7 +28,7 @@ LANES REAL light_spot(GLOBAL const struct scene_light *light, VEC3 to_light)
 	              light->spot_exponent == 0.0f ? SAME(1.0f) : M_POW(along, SAME(light->spot_exponent)));
 }
 
-/* Attenuation of a light at a place, spot factor included, and the unit vector towards it. */
+/* Attenuation of a light at a position, including the spot factor, and the unit vector towards it. */
 LANES REAL light_strength(GLOBAL const struct scene_light *light, VEC3 at, VEC3 *to_light)
 {
 	VEC3 to = SAME3(light_place(light));
@@ -37,7 +37,7 @@ LANES REAL light_strength(GLOBAL const struct scene_light *light, VEC3 at, VEC3 
 	if (light->position_eye[3] != 0.0f) {
 		to = v3_sub(to, at);
 		distance = M_SQRT(v3_dot(to, to));
-		/* A light may be farther away than numbers go, when the distance must not be looked at. */
+		/* The distance to a light may overflow even if it is not used. */
 		strength = light->attenuation[1] == 0.0f && light->attenuation[2] == 0.0f ?
 		                   SAME(1.0f / light->attenuation[0]) :
 		                   1.0f / (light->attenuation[0] +
@@ -47,7 +47,7 @@ LANES REAL light_strength(GLOBAL const struct scene_light *light, VEC3 at, VEC3 
 	return strength * light_spot(light, *to_light);
 }
 
-/* A colour of the material's sides, or the vertices' where color material tracks it (sec. 2.14.3). */
+/* A material colour of each side, or the vertices' colour if color material tracks it (sec. 2.14.3). */
 LANES VEC4 light_material_color(GLOBAL const float *front, GLOBAL const float *back, MASK is_back, MASK tracked,
                                 VEC4 vertex_color)
 {
@@ -55,11 +55,11 @@ LANES VEC4 light_material_color(GLOBAL const float *front, GLOBAL const float *b
 }
 
 /*
- * The material of a side under white light, but for its place.
+ * A side's material under white light, without its position.
  *
  * front, back   the material's sides
  * vertex_color  the current colours, for color material
- * out           receives the light that no light sends
+ * out           receives the light that comes from no light source
  */
 LANES void light_material(GLOBAL const struct scene_material *m, GLOBAL const struct scene_face *front,
                           GLOBAL const struct scene_face *back, MASK is_back, VEC4 vertex_color,
@@ -81,7 +81,7 @@ LANES void light_material(GLOBAL const struct scene_material *m, GLOBAL const st
 	                    v4_mul(matter->ambient, SAME4(v4_load(m->light_model_ambient))));
 }
 
-/* Of what only rules light: of the material only the vertices' colours count. */
+/* For surfaces that are lit only by rules: only the vertices' colours of the material are used. */
 LANES void light_matte(VEC4 vertex_color, struct LANED(matter) *matter, struct LANED(lit) *out)
 {
 	matter->ambient = matter->diffuse = vertex_color;
@@ -89,11 +89,11 @@ LANES void light_matte(VEC4 vertex_color, struct LANED(matter) *matter, struct L
 	matter->shininess = SAME(0.0f);
 }
 
-/* Before the first light. normal: of the side to be lit */
+/* Before the first light. normal: of the lit side */
 LANES void light_begin(GLOBAL const struct scene_material *m, VEC3 at, VEC3 normal, struct LANED(matter) *matter,
                        struct LANED(lit) *out)
 {
-	matter->at = at; /* Mesa never divides by w here (sundancer2) */
+	matter->at = at; /* Mesa never divides by w here (sundancer2). */
 	matter->normal = normal;
 	matter->to_viewer = m->local_viewer ? v3_normalize(v3_scale(at, SAME(-1.0f))) : SAME3(v3(0.0f, 0.0f, 1.0f));
 	matter->is_long = v3_dot(normal, normal) > 1.01f;
@@ -101,7 +101,7 @@ LANES void light_begin(GLOBAL const struct scene_material *m, VEC3 at, VEC3 norm
 	out->lights = (WORD)(0u);
 }
 
-/* A highlight, before strength and colours. */
+/* A highlight, before strength and colours are applied. */
 LANES REAL light_shine(GLOBAL const struct scene_material *m, GLOBAL const struct scene_light *light, REAL shininess,
                        REAL n_h, REAL n_l)
 {
@@ -110,7 +110,7 @@ LANES REAL light_shine(GLOBAL const struct scene_material *m, GLOBAL const struc
 	return CHOOSE(shininess == 0.0f, SAME(1.0f), M_POW(n_h, shininess));
 }
 
-/* Add light i of the list. share: NULL, or how much of its diffuse and specular light counts */
+/* Add light i of the list. share: NULL, or the share of its diffuse and specular light that arrives */
 LANES void light_add(GLOBAL const struct scene_material *m, const struct LANED(matter) *matter,
                      GLOBAL const struct scene_light *light, uint32_t i, const VEC3 *share, struct LANED(lit) *out)
 {
@@ -125,7 +125,7 @@ LANES void light_add(GLOBAL const struct scene_material *m, const struct LANED(m
 		return;
 	matte = v4_scale(v4_mul(matter->diffuse, SAME4(v4_load(light->diffuse))), n_l * strength);
 	gloss = v4_mul(matter->specular, SAME4(v4_load(light->specular)));
-	/* What is black has no highlight, whatever the power: it is a number, but where the normal is long. */
+	/* A black highlight is skipped, whatever its power: the power is a number unless the normal is long. */
 	if (ANY(is_lit && (gloss.x != 0.0f || gloss.y != 0.0f || gloss.z != 0.0f || matter->is_long))) {
 		const VEC3 half_way = v3_normalize(v3_add(to_light, matter->to_viewer));
 		const REAL n_h = M_MAX(v3_dot(matter->normal, half_way), SAME(0.0f));
@@ -148,7 +148,7 @@ LANES void light_add(GLOBAL const struct scene_material *m, const struct LANED(m
 		out->color = CHOOSE4(is_lit, v4_add(out->color, gloss), out->color);
 }
 
-/* After the last one. */
+/* Finish after the last light. */
 LANES void light_end(GLOBAL const struct scene_material *m, const struct LANED(matter) *matter,
                      struct LANED(lit) *out)
 {

@@ -1,9 +1,9 @@
 /*
- * Per-fragment operations (GL 2.1 sec. 4.1) and clears (sec. 4.2.3) on one pixel. They run side by side for GL's own
- * colours and for each step from there to the beauty (struct shaded); GL's colours decide for all.
+ * Per-fragment operations (GL 2.1 sec. 4.1) and clears (sec. 4.2.3) on one pixel. They process GL's own colours and
+ * each step from there to the beauty (struct shaded) side by side; GL's colours decide all tests.
  *
  * Operations that read a colour back (blending, logic op) first round it to 8 bits, as the frame buffer does. Other
- * colours stay as they are.
+ * colours are not changed.
  */
 #pragma once
 
@@ -11,10 +11,10 @@
 #include "kernels/common.h"
 #include "kernels/gl/blend.h"
 
-/* Numbers that stand in the order of floats. */
+/* Maps floats to integers of the same order. */
 static inline uint32_t pixel_order(float x)
 {
-	uint32_t bits = M_BITS(x + 0.0f); /* so there is one zero */
+	uint32_t bits = M_BITS(x + 0.0f); /* so that there is a single zero */
 
 	return bits >> 31 ? ~bits : bits | 0x80000000u;
 }
@@ -73,29 +73,29 @@ static inline float pixel_logic(uint32_t op, float source, float destination)
 	return (float)(out & 255u) / 255.0f;
 }
 
-/* --- One colour into one place ----------------------------------------------------------------------------------- */
+/* --- Storing one colour ------------------------------------------------------------------------------------------ */
 
 static inline float pixel_stored(float x)
 {
 	return M_RINT(clamp01(x) * 255.0f) / 255.0f;
 }
 
-/* A number as llvmpipe (22.3.6) stores it in a half: what there is no room for is cut off, not rounded. */
+/* A number as llvmpipe (22.3.6) stores it in a half: excess bits are truncated, not rounded. */
 static inline float pixel_half(float x)
 {
 	const uint32_t bits = M_BITS(x), size = bits & 0x7fffffffu;
 	uint32_t cut = size & ~0x1fffu;
 
-	if (size >= 0x7f800000u) /* no numbers */
+	if (size >= 0x7f800000u) /* NaN and infinity */
 		return x;
 	if (size >= 0x477fe000u)
 		cut = 0x477fe000u; /* the largest */
-	else if (size < 0x38800000u) /* in steps of 2^-24 */
+	else if (size < 0x38800000u) /* subnormal: in steps of 2^-24 */
 		cut = M_BITS((float)(uint32_t)(M_FLOAT(size) * 16777216.0f) / 16777216.0f);
 	return M_FLOAT((bits & 0x80000000u) | cut);
 }
 
-/* A drawable that holds sRGB: blended in linear light, and encoded as llvmpipe does both. */
+/* An sRGB drawable: blended in linear light, with llvmpipe's encoding in both directions. */
 static inline struct vec4 pixel_encoded(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d, int blends)
 {
 	s = v4(clamp01(s.x), clamp01(s.y), clamp01(s.z), clamp01(s.w));
@@ -114,13 +114,13 @@ static inline struct vec4 pixel_blended(GLOBAL const struct scene_material *m, s
 	if (m->floats)
 		return blend_floats(m, s, d);
 	d = v4(pixel_stored(d.x), pixel_stored(d.y), pixel_stored(d.z), pixel_stored(d.w));
-	if (m->logic_op) /* takes blending's place (sec. 4.1.10) */
+	if (m->logic_op) /* replaces blending (sec. 4.1.10) */
 		return v4(pixel_logic(m->logic_op, s.x, d.x), pixel_logic(m->logic_op, s.y, d.y),
 		          pixel_logic(m->logic_op, s.z, d.z), pixel_logic(m->logic_op, s.w, d.w));
 	return blend_colors(m, s, d);
 }
 
-/* The colour that the frame buffer gets from a source over a destination; the mask is the caller's. */
+/* The colour that the frame buffer receives for a source over a destination; the caller applies the mask. */
 static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
 {
 	s = pixel_blended(m, s, d);
@@ -128,10 +128,10 @@ static inline struct vec4 pixel_source(GLOBAL const struct scene_material *m, st
 }
 
 /*
- * Bits of the frame buffer, as kernels get them: depth | stencil << 8 | alpha << 16. With several samples a pixel, the
- * number of the drawn sample, from 1 on, << 24. With PIXEL_FOLLOWS a sample makes no tests of its own: its colours go
- * where the first sample's tests let them. That is how llvmpipe (22.3.6) draws without multisampling to a frame buffer
- * with samples.
+ * Properties of the frame buffer, as passed to kernels: depth bits | stencil bits << 8 | alpha bits << 16. With several
+ * samples per pixel, the number of the drawn sample, starting at 1, << 24. With PIXEL_FOLLOWS, a sample makes no tests
+ * of its own: its colours are written if the first sample passed its tests. llvmpipe (22.3.6) does this when drawing
+ * without multisampling to a frame buffer with samples.
  */
 #define PIXEL_FOLLOWS 0x80000000u
 
@@ -140,7 +140,7 @@ static inline int pixel_is_sampled(uint32_t bits)
 	return (bits >> 24 & 127u) != 0u;
 }
 
-/* Of the sample that is drawn, from 0 on. */
+/* Index of the drawn sample, starting at 0. */
 static inline uint32_t pixel_sample(uint32_t bits)
 {
 	return pixel_is_sampled(bits) ? (bits >> 24 & 127u) - 1u : 0u;
@@ -161,7 +161,7 @@ static inline uint32_t pixel_alpha_bits(uint32_t bits)
 	return bits >> 16 & 255u;
 }
 
-/* A pixel as GL's frame buffer held it; the rest of it is 0. depth: in the buffer's steps, of which 24 bits count */
+/* A pixel as GL's frame buffer held it; the other fields are 0. depth: in the buffer's steps, 24 bits of which count */
 static inline void pixel_start(struct frame_pixel *pixel, const float gl[4], uint32_t depth, uint32_t bits)
 {
 	const uint32_t depth_bits = pixel_depth_bits(bits), far = pixel_bits_mask(depth_bits);
@@ -176,7 +176,10 @@ static inline void pixel_start(struct frame_pixel *pixel, const float gl[4], uin
 	pixel->unknown = PIXEL_BEFORE;
 }
 
-/* Tests of sec. 4.1.4 to 4.1.6, and their changes to stencil and depth buffer. @return 1: the fragment is drawn */
+/*
+ * Tests of sec. 4.1.4 to 4.1.6, including their updates of the stencil and depth buffers. @return 1: the fragment is
+ * drawn
+ */
 static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s,
                               GLOBAL struct frame_pixel *pixel, uint32_t bits)
 {
@@ -191,8 +194,8 @@ static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL cons
 	if (m->alpha_test && !pixel_compare(m->alpha_func, m->floats ? pixel_order(s->gl[3]) : blend_round(s->gl[3]),
 	                                    m->floats ? pixel_order(m->alpha_ref) : blend_round(m->alpha_ref)))
 		return 0;
-	/* Multisample fragment operations (sec. 4.1.3); which samples an alpha covers is left open. These are
-	 * llvmpipe's, of four. */
+	/* Multisample fragment operations (sec. 4.1.3). The specification does not say which samples an alpha covers; these
+     * are llvmpipe's, for four samples. */
 	if (m->samples_off >> pixel_sample(bits) & 1u ||
 	    (m->alpha_to_coverage && !(s->gl[3] > 0.25f * (float)pixel_sample(bits))))
 		return 0;
@@ -224,7 +227,7 @@ static inline void pixel_store(GLOBAL float *out, struct vec3 color, uint32_t ma
 		out[2] = color.z;
 }
 
-/* One part of a fragment's colour over the same part of the pixel. */
+/* Blend one part of a fragment's colour over the same part of the pixel. */
 static inline void pixel_part(GLOBAL const struct scene_material *m, GLOBAL const float *source, float source_alpha,
                               float alpha, GLOBAL float *destination, int opaque)
 {
@@ -237,7 +240,10 @@ static inline void pixel_part(GLOBAL const struct scene_material *m, GLOBAL cons
 	pixel_store(destination, v3(s.x, s.y, s.z), m->color_mask);
 }
 
-/* Whether a fragment reaches the colour of a pixel. The first sample's decision is kept for those that follow it. */
+/*
+ * Test whether a fragment reaches a pixel's colour. The first sample's decision is stored for the samples that follow
+ * it.
+ */
 static inline int pixel_passes(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s,
                                GLOBAL struct frame_pixel *pixel, uint32_t bits)
 {
@@ -249,13 +255,13 @@ static inline int pixel_passes(GLOBAL const struct scene_material *m, GLOBAL str
 	return 1;
 }
 
-/* Whether a fragment changes the colours of a pixel: all tests, and what they change of depth and stencil. */
+/* Test whether a fragment changes a pixel's colours: runs all tests, including their updates of depth and stencil. */
 static inline int pixel_reaches(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s,
                                 GLOBAL struct frame_pixel *pixel, uint32_t bits)
 {
 	if (s->flags & SHADED_STENCIL && bits & PIXEL_FOLLOWS)
 		return 0;
-	if (s->flags & SHADED_STENCIL) { /* DrawPixels of stencil values: nothing but the mask counts (sec. 4.3.1) */
+	if (s->flags & SHADED_STENCIL) { /* DrawPixels of stencil values: only the mask matters (sec. 4.3.1) */
 		uint32_t write = m->stencil_front.write_mask & pixel_bits_mask(pixel_stencil_bits(bits));
 
 		pixel->stencil = (pixel->stencil & ~write) | ((uint32_t)s->depth & write);
@@ -264,7 +270,7 @@ static inline int pixel_reaches(GLOBAL const struct scene_material *m, GLOBAL st
 	return s->flags & SHADED_THERE && pixel_passes(m, s, pixel, bits) && m->color_mask & 15u;
 }
 
-/* The colours of a fragment that reaches them. */
+/* Write the colours of a fragment that passed the tests. */
 static inline void pixel_colors(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s,
                                 GLOBAL struct frame_pixel *pixel, uint32_t bits)
 {
@@ -280,14 +286,14 @@ static inline void pixel_colors(GLOBAL const struct scene_material *m, GLOBAL co
 
 		pixel_part(m, s->direct, opacity, alpha, pixel->direct, solid);
 		pixel_part(m, s->mirrored, opacity, alpha, pixel->mirrored, solid);
-		/* Refractions are traced; blending would show them once more. */
+		/* Refractions are traced; blending would show them a second time. */
 		pixel_part(m, s->beauty, opacity, alpha, pixel->beauty, solid || m->surface.transmit > 0.0f);
 	}
 	if (mask & 8u)
 		pixel->gl[3] = gl.w;
 }
 
-/* 1 where a fragment leaves nothing of the colours that were there: over black, grey and white it gives the same. */
+/* 1 if a fragment leaves nothing of the previous colours: over black, grey and white it gives the same result. */
 static inline int pixel_replaces(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s)
 {
 	const struct vec4 source = v4(s->gl[0], s->gl[1], s->gl[2], m->alpha_to_one ? 1.0f : s->gl[3]);
@@ -299,7 +305,7 @@ static inline int pixel_replaces(GLOBAL const struct scene_material *m, GLOBAL c
 	       over[0].z == over[1].z && over[1].z == over[2].z;
 }
 
-/* What else a pixel keeps of a fragment that reaches its colours. `draw`: its draw number */
+/* Record the other data of a fragment that reaches the pixel's colours. `draw`: its draw number */
 static inline void pixel_mark(GLOBAL const struct scene_material *m, GLOBAL const struct shaded *s,
                               GLOBAL const struct fragment *f, uint32_t draw, GLOBAL struct frame_pixel *pixel)
 {
@@ -310,14 +316,14 @@ static inline void pixel_mark(GLOBAL const struct scene_material *m, GLOBAL cons
 		pixel->layers = 0u;
 	if (pixel->unknown & PIXEL_UNKNOWN_COLOR && (m->color_mask & 7u) == 7u && pixel_replaces(m, s))
 		pixel->unknown &= ~PIXEL_UNKNOWN_COLOR;
-	/* A blended film without depth is no surface, unless there is nothing else. */
+	/* A blended film without depth does not count as a surface, unless there is nothing else. */
 	if (!m->blend || m->depth_write || pixel->surface.order == SCENE_NONE) {
 		pixel->surface = *f;
 		v3_store(pixel->albedo, v3_load(s->albedo));
 	}
 }
 
-/* One fragment through all operations. */
+/* Run one fragment through all operations. */
 static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL struct shaded *s,
                               GLOBAL const struct fragment *f, uint32_t draw, GLOBAL struct frame_pixel *pixel,
                               uint32_t bits)
@@ -331,8 +337,8 @@ static inline void pixel_draw(GLOBAL const struct scene_material *m, GLOBAL stru
 /* --- Samples into pixels ----------------------------------------------------------------------------------------- */
 
 /*
- * A channel of four samples as one number: the mean of their 8-bit codes, rounded, in Mesa's order of operations
- * (22.3.6, util_make_fs_msaa_resolve). Where all are equal it is the first one's number, as it stands.
+ * A channel of four samples as one number: the rounded mean of their 8-bit codes, in Mesa's order of operations
+ * (22.3.6, util_make_fs_msaa_resolve). If all samples are equal, it is the first one's number, unchanged.
  */
 static inline float pixel_average(const float *samples)
 {
@@ -348,7 +354,10 @@ static inline float pixel_average(const float *samples)
 	return same ? samples[0] : pixel_stored(sum * 0.25f);
 }
 
-/* A part's mean differs from the resolved colour by the mean of the samples' differences: equals stay equal. */
+/*
+ * The mean of a part: the resolved colour plus the mean difference between the samples' parts and colours. Parts that
+ * equal the colour stay equal.
+ */
 static inline float pixel_average_part(float gl, const float *gls, const float *parts)
 {
 	float off = (parts[0] - gls[0]) + (parts[1] - gls[1]) + (parts[2] - gls[2]) + (parts[3] - gls[3]);
@@ -357,8 +366,8 @@ static inline float pixel_average_part(float gl, const float *gls, const float *
 }
 
 /*
- * Resolve four samples of a pixel: the means of colours and parts, the albedo of drawn samples, depth and stencil of
- * the first sample, the surface of the first sample that has one.
+ * Resolve four samples of a pixel: the means of colours and parts, the albedo of the drawn samples, depth and stencil
+ * of the first sample, and the surface of the first sample that has one.
  */
 static inline void pixel_merge(GLOBAL const struct frame_pixel *first, GLOBAL const struct frame_pixel *second,
                                GLOBAL const struct frame_pixel *third, GLOBAL const struct frame_pixel *fourth,

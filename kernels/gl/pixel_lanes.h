@@ -15,8 +15,8 @@ LANES MASK pixel_compare(uint32_t func, WORD a, WORD b)
 }
 
 /*
- * Depth as a buffer of so many bits holds it, rounded to even as Mesa does. Beyond 24 bits it is the float's own bits;
- * the last one is then always 0, and 1 has all bits set.
+ * Depth as a buffer with `bits` bits stores it, rounded to even as in Mesa. With more than 24 bits it keeps the float's
+ * own bits: the last bit is always 0, except that 1 has all bits set.
  */
 LANES WORD pixel_depth_steps(REAL depth, uint32_t bits)
 {
@@ -27,8 +27,8 @@ LANES WORD pixel_depth_steps(REAL depth, uint32_t bits)
 }
 
 /*
- * Moves a number off the border between two 8-bit codes, to the side that the frame buffer rounds to, by at most 0.04
- * codes. A picture's half floats and encoding then cannot change its code. 0.3 is 76.5, and 76 for Mesa.
+ * Moves a number off the border between two 8-bit codes by at most 0.04 codes, to the side that the frame buffer rounds
+ * to, so that a picture's half floats and encoding cannot change its code. For example, 0.3 is 76.5, and 76 in Mesa.
  */
 LANES REAL pixel_nudge(REAL x)
 {

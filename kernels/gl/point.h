@@ -1,6 +1,6 @@
 /*
- * A point of a triangle: where it is, how it is lit. It may be a fragment under a pixel centre or the hit of a
- * secondary ray; the text is the same.
+ * A point of a triangle: its position and lighting. It may be a fragment under a pixel centre or the hit of a secondary
+ * ray; both use the same text.
  */
 #pragma once
 
@@ -15,9 +15,9 @@ struct point {
 	GLOBAL const struct geometry *geometry;
 	GLOBAL const struct scene_material *material;
 	GLOBAL const struct shaded_vertex *vertex[3];
-	uint32_t number[3]; /* the vertices in the mesh */
-	uint32_t primitive; /* the triangle in it */
-	float weight[3];    /* of the vertices, homogeneous: perspective-correct */
+	uint32_t number[3]; /* the vertices' numbers in the mesh */
+	uint32_t primitive; /* the triangle's number in the mesh */
+	float weight[3];    /* the vertices' weights, homogeneous: perspective-correct */
 	int front;
 };
 
@@ -32,16 +32,16 @@ static inline void point_vertices(const struct tables *t, struct point *p, uint3
 	}
 }
 
-/* 1 where all corners have w = 1. */
+/* 1 if all corners have w = 1. */
 static inline int point_is_affine(const struct point *p)
 {
 	return p->vertex[0]->eye[3] == 1.0f && p->vertex[1]->eye[3] == 1.0f && p->vertex[2]->eye[3] == 1.0f;
 }
 
 /*
- * Corners with other w may lie at infinity, or be seen from behind it. In their place are those of a triangle about the
- * point P that lies in the same plane, shows the same side and has the same weights there. A corner E is at
- * P + (E - w P) / W; W is the point's w.
+ * Corners with other values of w may be at infinity, or be seen from behind it. They are replaced by the corners of a
+ * triangle around the point P that lies in the same plane, shows the same side and has the same weights there. A corner
+ * E is at P + (E - w P) / W; W is the point's w.
  */
 static inline struct vec3 point_corner_about(const struct point *p, int i)
 {
@@ -60,8 +60,8 @@ static inline struct vec3 point_corner(const struct point *p, int i)
 }
 
 /*
- * The triangle's own normal in eye space; front faces that run counter-clockwise have it towards their viewer. Length 0
- * where there is none: no area, or corners that are no numbers.
+ * The triangle's own normal in eye space, which points towards the viewer for front faces that run counter-clockwise.
+ * Its length is 0 if there is none: no area, or NaN in a corner.
  */
 static inline struct vec3 point_plane_normal(const struct point *p)
 {
@@ -71,7 +71,7 @@ static inline struct vec3 point_plane_normal(const struct point *p)
 	return v3_dot(n, n) > 0.0f ? n : v3(0.0f, 0.0f, 0.0f);
 }
 
-/* (x, y, w) of a clip-space vertex: lines through the eye, which clipping does not disturb. */
+/* (x, y, w) of a clip-space vertex: lines through the eye, which are unaffected by clipping. */
 static inline struct vec3 point_clip_xyw(const struct point *p, int i)
 {
 	GLOBAL const float *c = p->vertex[i]->clip;
@@ -79,12 +79,12 @@ static inline struct vec3 point_clip_xyw(const struct point *p, int i)
 	return v3(c[0], c[1], c[3]);
 }
 
-/* 1 where a fragment's triangle shows its front. w: window vertices of its geometry */
+/* 1 if a fragment's triangle shows its front. w: window vertices of its geometry */
 static inline int point_shows_front(const struct point *p, GLOBAL const struct window_vertex *w)
 {
 	int clockwise;
 
-	/* Which side: the sign of the area in the window; from clip space where a vertex has no window position. */
+	/* The sign of the area gives the side: in the window or, if a vertex has no window position, in clip space. */
 	if (w[p->number[0]].w_inv > 0.0f && w[p->number[1]].w_inv > 0.0f && w[p->number[2]].w_inv > 0.0f) {
 		float x0 = (float)w[p->number[0]].x, y0 = (float)w[p->number[0]].y;
 
@@ -97,7 +97,7 @@ static inline int point_shows_front(const struct point *p, GLOBAL const struct w
 	return clockwise == (p->material->front_face == GL_CW);
 }
 
-/* The point under a fragment without its weights, as all points of its triangle share it. w_inv: of the three
+/* The point under a fragment without its weights: the data shared by all points of the triangle. w_inv: of the three
  * vertices */
 static inline struct point point_of_triangle(const struct tables *t, GLOBAL const struct window_vertex *windows,
                                              const struct fragment *f, float *w_inv)
@@ -115,7 +115,10 @@ static inline struct point point_of_triangle(const struct tables *t, GLOBAL cons
 	return p;
 }
 
-/* The point under a fragment. Not by way of point_of_triangle: compilers for CPUs then keep all of it in memory. */
+/*
+ * The point under a fragment. It does not call point_of_triangle, because compilers for CPUs would then keep the whole
+ * struct in memory.
+ */
 static inline struct point point_from_fragment(const struct tables *t, GLOBAL const struct window_vertex *windows,
                                                const struct fragment *f)
 {
@@ -129,7 +132,7 @@ static inline struct point point_from_fragment(const struct tables *t, GLOBAL co
 	return p;
 }
 
-/* Weights of corners that are divided by w become those of vertices. */
+/* Convert weights of corners divided by w to weights of vertices. */
 static inline void point_divide_weights(struct point *p)
 {
 	float sum = 0.0f;
@@ -142,7 +145,7 @@ static inline void point_divide_weights(struct point *p)
 		p->weight[i] /= sum;
 }
 
-/* The point that a ray hit; its front side is the one GL would see from the ray's origin. */
+/* The point that a ray hit; its front side is the one that GL would see from the ray's origin. */
 static inline struct point point_from_hit(const struct tables *t, const struct hit *hit, struct vec3 direction)
 {
 	struct point p;
@@ -163,8 +166,8 @@ static inline struct vec3 point_position(const struct point *p)
 	              v3_scale(point_corner(p, 2), p->weight[2]));
 }
 
-/* Unit normal for effects: GL's interpolated one where the draw is lit, or its program reads it, else the plane's; on
- * the side that is seen. */
+/* Unit normal for effects, on the visible side: GL's interpolated normal if the draw is lit or its program reads the
+ * normal, else the plane's. */
 static inline struct vec3 point_normal(const struct point *p)
 {
 	struct vec3 n = point_plane_normal(p), smooth;
@@ -175,29 +178,29 @@ static inline struct vec3 point_normal(const struct point *p)
 	smooth = v3_normalize(v3_add(v3_add(v3_scale(v3_load(p->vertex[0]->normal), p->weight[0]),
 	                                    v3_scale(v3_load(p->vertex[1]->normal), p->weight[1])),
 	                             v3_scale(v3_load(p->vertex[2]->normal), p->weight[2])));
-	if (!(v3_dot(smooth, smooth) > 0.0f)) /* none, or an infinite one (vertex_eye_normal) */
+	if (!(v3_dot(smooth, smooth) > 0.0f)) /* missing or infinite (vertex_eye_normal) */
 		return n;
 	return v3_dot(smooth, n) < 0.0f ? v3_scale(smooth, -1.0f) : smooth;
 }
 
-/* A triangle in eye space, as rays from any of its points need it. */
+/* A triangle in eye space, as needed by rays from any of its points. */
 struct point_plane {
-	struct vec3 corner[3], normal; /* point_plane_normal */
-	float length[3], area;         /* of the edge opposite of each corner; of the parallelogram */
-	float rounding;                /* how far rounding moves a place on it: POINT_ROUNDING */
+	struct vec3 corner[3], normal; /* normal: point_plane_normal */
+	float length[3], area;         /* length of the edge opposite each corner; area of the parallelogram */
+	float rounding;                /* maximum rounding error of a position on it: POINT_ROUNDING */
 };
 
 /*
- * Roundings of a place, as a share of the numbers that it is made of: about sixteen of 2^-24. A vertex comes to eye
- * space by a sum of four products, as large as the way to object space's origin (geometry.away). A point sums up three
- * corners by weights, which are rounded, too. Its ray goes back to object space, and meets the triangle there by
- * differences and products of corners and edges. (C. Waechter and N. Binder, "A Fast and Robust Method for Avoiding
- * Self-Intersection", Ray Tracing Gems, 2019, ch. 6; M. Pharr, W. Jakob and G. Humphreys, "Physically Based Rendering",
- * 4th ed., section 6.8: the bounds are counted so.)
+ * Rounding error of a position, as a share of the numbers it is computed from: about sixteen of 2^-24. A vertex comes
+ * to eye space by a sum of four products, as large as the distance to object space's origin (geometry.away). A point
+ * sums three corners by weights, which are rounded, too. Its ray goes back to object space, and meets the triangle
+ * there by differences and products of corners and edges. (C. Waechter and N. Binder, "A Fast and Robust Method for
+ * Avoiding Self-Intersection", Ray Tracing Gems, 2019, ch. 6; M. Pharr, W. Jakob and G. Humphreys, "Physically Based
+ * Rendering", 4th ed., section 6.8 counts bounds this way.)
  */
 #define POINT_ROUNDING 9.5367431640625e-7f /* 2^-20 */
 
-/* What snapping moves a pixel's point by, as a share of its distance. */
+/* Displacement of a pixel's point by snapping, as a share of its distance. */
 #define POINT_SNAPPING 6.103515625e-5f /* 2^-14 */
 
 static inline struct point_plane point_plane_of(const struct point *p)
@@ -228,8 +231,8 @@ static inline struct vec3 point_place(const struct point_plane *plane, const flo
 }
 
 /*
- * Weights of a place inside the triangle, at least `inset` away from its edges, where the triangle is that wide. They
- * are those of the point, unless the point lies at an edge, or beyond one because vertices are snapped.
+ * Weights of a position inside the triangle, at least `inset` away from its edges if the triangle is wide enough. They
+ * are the point's own weights unless the point is at an edge, or beyond one because vertices are snapped.
  */
 static inline void point_inset_weights(const float *of_point, const struct point_plane *plane, float inset,
                                        float *weight)
@@ -248,15 +251,15 @@ static inline void point_inset_weights(const float *of_point, const struct point
 }
 
 /*
- * Where secondary rays from a point of a triangle start: off the plane, on the side of `towards`, by what rounding does
- * to the point (plane->rounding), and at least by POINT_SNAPPING of its largest coordinate, which stays below a tenth
- * of a pixel's footprint in common windows.
+ * Origin of secondary rays from a point of a triangle: off the plane, on the side of `towards`, by the point's rounding
+ * error (plane->rounding) and at least by POINT_SNAPPING of its largest coordinate, which is less than a tenth of a
+ * pixel's footprint in common windows.
  *
- * Coverage and depth go by vertices snapped to 1/256 pixel. So a pixel's point may lie a little outside its triangle,
- * or behind a wall that meets it: the ray would start behind the next wall, and a lit corner would show dark pixels.
- * The point therefore first moves back into its triangle, and then, by as much again, against `from`, the direction of
- * the ray that led to it: that ray passed there, so nothing stands there. The second step is left out where `towards`
- * leads away through the other side of the triangle.
+ * Coverage and depth use vertices snapped to 1/256 pixel, so a pixel's point may be slightly outside its triangle, or
+ * behind a wall that meets it. The ray would then start behind the next wall, and a lit corner would show dark pixels.
+ * The point therefore first moves back into its triangle and then, by the same distance, against `from`, the direction
+ * of the ray that led to it. That ray passed there, so the way is free. The second step is omitted if `towards` leads
+ * away through the other side of the triangle.
  */
 static inline struct vec3 point_ray_origin(const float *of_point, const struct point_plane *plane, struct vec3 towards,
                                            struct vec3 from)
@@ -272,13 +275,13 @@ static inline struct vec3 point_ray_origin(const float *of_point, const struct p
 	return v3_add(at, v3_scale(n, size));
 }
 
-/* The place of vertex k by which clip planes clip, in eye space. */
+/* The eye-space position of vertex k for user clip planes. */
 static inline struct vec4 point_clip_place(const struct point *p, uint32_t k)
 {
 	return v4_load(p->material->clip_by_program ? p->vertex[k]->color[1] : p->vertex[k]->eye);
 }
 
-/* 1 where a user clip plane (sec. 2.12) cuts the point away. */
+/* 1 if a user clip plane (sec. 2.12) clips the point. */
 static inline int point_clipped(const struct point *p)
 {
 	for (uint32_t i = 0u; i < SCENE_MAX_CLIP_PLANES; i++) {
@@ -303,7 +306,7 @@ static inline struct vec4 point_mix(const struct point *p, struct vec4 a, struct
 	return v4_between(a, b, c, p->weight);
 }
 
-/* Side whose colours count: the back one only under two-sided lighting (sec. 2.14.1). */
+/* The side whose colours are used: the back side only under two-sided lighting (sec. 2.14.1). */
 static inline int point_side(const struct point *p)
 {
 	return p->material->two_side && !p->front;
@@ -328,7 +331,7 @@ static inline struct lit point_lit_from_vertices(const struct point *p)
 	return lit;
 }
 
-/* The vertices lit again, with the lights' visibility; under flat shading the last one alone. */
+/* Light the vertices again, with the lights' visibility; under flat shading only the last one. */
 static inline void point_light_corners(const struct tables *t, const struct point *p, const struct vec3 *seen,
                                        struct lit *lit)
 {
@@ -365,7 +368,7 @@ static inline struct vec4 point_current_color(const struct tables *t, const stru
 	                                                              tables_color(t, p->geometry, p->number[1]), last);
 }
 
-/* The same for lights of a rule: without light that vertices' colours hold. */
+/* The same for lights of a rule: without light that is baked into vertex colours. */
 static inline struct vec4 point_matte_color(const struct tables *t, const struct point *p)
 {
 	struct vec4 color = point_current_color(t, p);
@@ -373,7 +376,7 @@ static inline struct vec4 point_matte_color(const struct tables *t, const struct
 	return p->material->surface.light_unit == SCENE_LIGHT_IN_COLORS ? v4(1.0f, 1.0f, 1.0f, color.w) : color;
 }
 
-/* The lights of a point beyond GL: its own where a rule has given it some. */
+/* The lights of a point beyond GL: its own if a rule has assigned any. */
 static inline struct light_list point_lights(const struct point *p)
 {
 	GLOBAL const struct scene_material *m = p->material;
@@ -382,14 +385,14 @@ static inline struct light_list point_lights(const struct point *p)
 	                          light_list(m->light_first, m->light_count);
 }
 
-/* Whether light has a part in a point's colour. */
+/* Test whether lighting affects a point's colour. */
 static inline int point_takes_light(const struct point *p)
 {
 	return (p->material->lighting || p->material->surface.relit) && !(p->geometry->flags & GEOMETRY_EXPANDED) &&
 	       !(p->material->surface.hidden & SCENE_UNSHADED);
 }
 
-/* The normal of a corner, in eye space: the vertex', or a corner's own where rules give it one (scene_surface
+/* The normal of a corner, in eye space: the vertex's, or the corner's own if rules assign one (scene_surface
  * SCENE_CREASED). */
 static inline struct vec3 point_corner_normal(const struct tables *t, const struct point *p, uint32_t corner)
 {
@@ -401,7 +404,7 @@ static inline struct vec3 point_corner_normal(const struct tables *t, const stru
 	                                      v3_load(t->attributes + g->crease + (p->primitive * 3u + corner) * 3u)));
 }
 
-/* The same lit where the point is, with its own normal (Phong 1975), instead of between lit vertices. */
+/* The same, lit at the point itself with its own normal (Phong 1975), instead of interpolating between lit vertices. */
 static inline struct lit point_lit_here(const struct tables *t, const struct point *p, const struct vec3 *seen)
 {
 	int side = point_side(p);

@@ -1,7 +1,7 @@
 /*
- * Fragment programs (ARB_fragment_program): instructions.h runs them. Each runs for the four pixels of llvmpipe's quad
- * at once, of which one is the fragment: textures take their levels from how coordinates change across the quad,
- * whatever they were computed from.
+ * Fragment programs (ARB_fragment_program); instructions.h runs them. Each runs for the four pixels of llvmpipe's quad
+ * at once, one of which is the fragment, because textures choose their levels by how coordinates change across the
+ * quad, however those were computed.
  */
 #pragma once
 
@@ -9,12 +9,12 @@
 #include "kernels/gl/stages.h"
 #include "kernels/gl/vertex_program.h"
 
-/* A fragment that runs one. The four are the quad's pixels: x y in the upper row, z w in the lower one. */
+/* A fragment with a running program. The four are the quad's pixels: x y in the upper row, z w in the lower one. */
 struct program_fragment {
 	const struct shade_arguments *a;
 	struct point p;
 	struct point_window window;
-	uint32_t own; /* which of the four pixels the fragment is */
+	uint32_t own; /* index of the fragment's own pixel in the quad */
 	struct program_run run;
 };
 
@@ -25,7 +25,7 @@ static inline uint32_t program_computes(const struct program_fragment *f, uint32
 
 /* --- Inputs ------------------------------------------------------------------------------------------------------ */
 
-/* The same point of the triangle's plane as pixel `k` of the quad sees it. */
+/* The point of the triangle's plane at pixel `k` of the quad. */
 static inline struct point program_neighbour(const struct program_fragment *f, const struct point_quad *quad,
                                              uint32_t k)
 {
@@ -92,7 +92,7 @@ static inline void program_position(struct program_fragment *f, const struct poi
 	}
 }
 
-/* Colours by way of the fragment's own, which lights may have dimmed. */
+/* Colours interpolated by the fragment's weights, as visibility may have dimmed them. */
 static inline void program_colors_by_weights(struct program_fragment *f, const struct lit *lit,
                                              const struct point_quad *quad)
 {
@@ -112,8 +112,8 @@ static inline void program_colors_by_weights(struct program_fragment *f, const s
 	}
 }
 
-/* Colours to llvmpipe's last bits: depth may be made of them. Under flat shading (sec. 2.14.7) the last vertex's as
- * they are. */
+/* Colours matching llvmpipe's last bits, as depth may depend on them. Under flat shading (sec. 2.14.7), the last
+ * vertex's colours unchanged. */
 static inline void program_colors_by_planes(struct program_fragment *f, uint32_t inputs, const struct point_quad *quad)
 {
 	const int side = point_side(&f->p);
@@ -160,12 +160,12 @@ static inline void program_inputs(struct program_fragment *f, uint32_t inputs, c
 	else
 		program_colors_by_weights(f, lit, &quad);
 	if (f->p.material->lighting)
-		f->run.registers[4u * SCENE_INPUT_SECONDARY + 3u] = program_splat(1.0f); /* as Mesa's fixed function leaves it */
+		f->run.registers[4u * SCENE_INPUT_SECONDARY + 3u] = program_splat(1.0f); /* as Mesa's fixed function sets it */
 }
 
 /* --- Fragments --------------------------------------------------------------------------------------------------- */
 
-/* As point_light_corners, where a vertex program lights them. run: room */
+/* point_light_corners for vertices lit by a vertex program. run: storage */
 static inline void program_light_corners(const struct shade_arguments *s, const struct point *p,
                                          const struct vec3 *seen, struct program_run *run, struct lit *lit)
 {
@@ -181,8 +181,8 @@ static inline void program_light_corners(const struct shade_arguments *s, const 
 	}
 }
 
-/* What `shade` has left of a fragment: its triangle, weights and colours. keeps, kept: as for shade_item. @return 0:
- * none that a program shades */
+/* Find the triangle, weights and colours that `shade` left for a fragment. keeps, kept: as for shade_item. @return 0:
+ * no program shades it */
 static inline int program_find(const struct shade_arguments *s, uint32_t item, int keeps, struct setup_kept *kept,
                                struct program_fragment *f, struct vec3 *seen, struct lit *lit)
 {
@@ -226,7 +226,7 @@ static inline int program_find(const struct shade_arguments *s, uint32_t item, i
 	return 1;
 }
 
-/* The colour of a fragment that a program shades. @return 0: it is discarded */
+/* The colour of a fragment from its program. @return 0: it is discarded */
 static inline int program_shade(const struct shade_arguments *a, uint32_t item, const struct vec3 *seen,
                                 const struct lit *lit, struct program_fragment *f, struct vec4 *color)
 {
@@ -244,9 +244,9 @@ static inline int program_shade(const struct shade_arguments *a, uint32_t item, 
 }
 
 /*
- * program: a fragment that `shade` has coloured by fixed function gets its program's colour and depth, or is discarded.
- * Where lights of a vertex program do not arrive, it gets its colour without them, whatever shades it. keeps, kept: as
- * for shade_item.
+ * program: a fragment that `shade` has coloured by fixed function receives its program's colour and depth, or is
+ * discarded. If lights of a vertex program are shadowed, the fragment is coloured again without them, whatever shades
+ * it. keeps, kept: as for shade_item.
  */
 static inline void program_item(const struct shade_arguments *a, uint32_t item, int keeps, struct setup_kept *kept)
 {

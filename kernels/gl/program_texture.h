@@ -1,12 +1,10 @@
-/*
- * Textures in programs of either stage: the instruction that instructions.h leaves to the stage.
- */
+/* Texture lookups in programs of either stage: the instruction that instructions.h leaves to the stage. */
 #pragma once
 
 #include "kernels/gl/instructions.h"
 #include "kernels/gl/texture.h"
 
-/* The unit's place among those of the material; SCENE_NONE: it is none of them. */
+/* The unit's index among the material's; SCENE_NONE: the material does not use it. */
 static inline uint32_t program_unit(const struct tables *t, GLOBAL const struct scene_material *m, uint32_t unit)
 {
 	for (uint32_t i = 0u; i < m->unit_count; i++)
@@ -15,7 +13,7 @@ static inline uint32_t program_unit(const struct tables *t, GLOBAL const struct 
 	return SCENE_NONE;
 }
 
-/* One's coordinates as textures take them: divided by the fourth. */
+/* Texture coordinates of one of the four: divided by the fourth component. */
 static inline struct vec4 program_coordinates(const struct program_run *run, GLOBAL const struct scene_instruction *in,
                                               uint32_t k)
 {
@@ -25,7 +23,7 @@ static inline struct vec4 program_coordinates(const struct program_run *run, GLO
 	          in->c & SCENE_TEXTURE_DIVIDED ? program_of_four(r[3], k) : 1.0f);
 }
 
-/* The slopes of a level that is `bias` higher. llvmpipe's logarithm is straight between powers of two. */
+/* Slopes for a level that is `bias` higher. llvmpipe's logarithm is linear between powers of two. */
 static inline void program_bias(struct texture_slope *slope, float bias)
 {
 	const float rho2 = M_MAX(v4_dot(slope->right, slope->right), v4_dot(slope->down, slope->down));
@@ -37,9 +35,9 @@ static inline void program_bias(struct texture_slope *slope, float bias)
 }
 
 /*
- * A texture where one of the four looks at it.
- * @param quad   coordinates of all four. k: the one
- * @param level  its fourth number, where the instruction has it as a level or what is added to one
+ * The texture sample of one of the four.
+ * @param quad   coordinates of all four. k: index of the one
+ * @param level  the fourth component, if the instruction uses it as a level or a bias
  */
 static inline struct vec4 program_texel(const struct tables *t, GLOBAL const struct scene_unit *unit, uint32_t flags,
                                         const struct vec4 *quad, uint32_t k, float level)
@@ -58,7 +56,7 @@ static inline struct vec4 program_texel(const struct tables *t, GLOBAL const str
 	return texture_sample(t, unit, quad[k], &slope);
 }
 
-/* A texture that is not there, or not complete, is black. */
+/* A missing or incomplete texture is black. */
 static inline void program_sample(const struct tables *t, GLOBAL const struct scene_material *m,
                                   GLOBAL const struct scene_instruction *in, struct program_run *run)
 {
@@ -78,7 +76,7 @@ static inline void program_sample(const struct tables *t, GLOBAL const struct sc
 	program_keep(run, in->to + 3u, v4(sample[0].w, sample[1].w, sample[2].w, sample[3].w), run->mask);
 }
 
-/* m: whose textures it looks at */
+/* m: the material whose textures are used */
 static inline void program_execute(const struct tables *t, GLOBAL const struct scene_material *m,
                                    const struct program *program, struct program_run *run)
 {

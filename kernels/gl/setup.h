@@ -1,13 +1,13 @@
 /*
- * A fragment's triangle or line as llvmpipe sets it up: planes of depth and attributes, polygon offset. What the
- * fragments of a triangle share is found once and kept for those that follow it in the list.
+ * A fragment's triangle or line as llvmpipe sets it up: planes of depth and attributes, and polygon offset. Data shared
+ * by the fragments of a triangle is computed once and cached for those that follow in the list.
  */
 #pragma once
 
 #include "kernels/gl/fragment.h"
 #include "kernels/gl/pixel.h"
 
-/* The least step r of polygon offset (sec. 3.5.5) as llvmpipe has it: two steps of the depth buffer. */
+/* The minimum step r of polygon offset (sec. 3.5.5) in llvmpipe: two steps of the depth buffer. */
 static inline float setup_step(uint32_t bits)
 {
 	uint32_t depth_bits = pixel_depth_bits(bits) ? pixel_depth_bits(bits) : 24u;
@@ -26,8 +26,7 @@ static inline float setup_offset(GLOBAL const struct scene_material *m, const st
 	return m->polygon_offset_units * setup_step(bits) + slope * m->polygon_offset_factor;
 }
 
-/* A fragment of a line: its depth and the weights of its attributes. Other fragments stay as they are. y from the
- * top. */
+/* Depth and attribute weights of a line's fragment. Other fragments are not changed. y from the top. */
 static inline void setup_line(const struct tables *t, GLOBAL const struct view *views, uint32_t pixel_x,
                               uint32_t pixel_y, struct fragment *f)
 {
@@ -51,10 +50,10 @@ static inline void setup_line(const struct tables *t, GLOBAL const struct view *
 }
 
 /*
- * The triangle that a fragment's attributes and depth come from. Coverage goes by snapped vertices, but llvmpipe takes
- * attributes and depth from the unsnapped ones: nearest filtering and steep faces show the difference. So they are
- * found again from clip coordinates. A triangle that leaves the view volume (cut) counts by the part that covers the
- * pixel. @return 0: a line, a sliver
+ * The triangle that a fragment's attributes and depth come from. Coverage uses snapped vertices, but llvmpipe computes
+ * attributes and depth from the unsnapped ones; nearest filtering and steep faces show the difference. So they are
+ * recomputed from clip coordinates. For a triangle that leaves the view volume (cut), the part that covers the pixel is
+ * used. @return 0: a line or a sliver
  */
 static inline int setup_triangle(GLOBAL const struct view *view, GLOBAL const struct window_vertex *windows,
                                  const struct point *p, uint32_t x, uint32_t y, uint32_t height, int cut,
@@ -107,21 +106,21 @@ static inline int setup_triangle(GLOBAL const struct view *view, GLOBAL const st
 	return 1;
 }
 
-/* A triangle's set-up, kept from its first fragment for those that follow it in the list. */
+/* A triangle's set-up, cached from its first fragment for those that follow in the list. */
 struct setup_kept {
-	uint32_t instance, primitive; /* the fragments'; SCENE_NONE: nothing is kept */
-	struct point p;               /* but for its weights */
+	uint32_t instance, primitive; /* the fragments'; SCENE_NONE: empty */
+	struct point p;               /* without its weights */
 	float w_inv[3];
 	int have_setup, have_lit;
 	struct clip_setup setup;
 	struct clip_plane depth;
-	float offset;                 /* of polygons; 0: none */
+	float offset;                 /* polygon offset; 0: none */
 	struct point_kept sampling;
-	struct vec3 seen[SCENE_MAX_LIGHTS]; /* of lights, where its vertices were lit again */
+	struct vec3 seen[SCENE_MAX_LIGHTS]; /* visibility of lights, if its vertices were lit again */
 	struct lit lit[3];
 };
 
-/* The triangle of a fragment. Clipped ones are not kept: other pixels may lie in other parts. */
+/* Get the triangle of a fragment. Clipped triangles are not cached, as other pixels may be in other parts. */
 static inline void setup_keep(const struct shade_arguments *a, uint32_t x, uint32_t y, const struct fragment *f,
                               int keeps, struct setup_kept *kept)
 {
@@ -146,8 +145,8 @@ static inline void setup_keep(const struct shade_arguments *a, uint32_t x, uint3
 	}
 }
 
-/* Whether the vertices were lit by what is seen here: what lights show to a fragment they mostly show to the next one
- * too. From now on they are. */
+/* Test whether the vertices were lit with the visibility seen here, which the next fragment mostly shares. From now on
+ * they are. */
 static inline int setup_keeps_seen(const struct vec3 *seen, int keeps, struct setup_kept *kept)
 {
 	int same = keeps && kept->have_lit;
@@ -160,7 +159,7 @@ static inline int setup_keeps_seen(const struct vec3 *seen, int keeps, struct se
 	return same;
 }
 
-/* The vertices lit again. */
+/* Light the vertices again. */
 static inline void setup_keep_lit(const struct tables *t, const struct vec3 *seen, int keeps, struct setup_kept *kept)
 {
 	if (!setup_keeps_seen(seen, keeps, kept))
@@ -168,8 +167,8 @@ static inline void setup_keep_lit(const struct tables *t, const struct vec3 *see
 }
 
 /*
- * Weights of a fragment of a triangle for its attributes, and its depth with polygon offset. Depth is that of the place
- * where the view looks, attributes are those of the pixel's centre, which samples share (sec. 3.2.1).
+ * Attribute weights of a triangle's fragment, and its depth with polygon offset. Depth belongs to the sample position,
+ * attributes to the pixel's centre, which samples share (sec. 3.2.1).
  */
 static inline void setup_unsnap(GLOBAL const struct view *view, const struct setup_kept *kept, uint32_t x, uint32_t y,
                                 uint32_t height, struct fragment *f)

@@ -1,8 +1,8 @@
 /*
  * One work item of each shading kernel. The .cl files and the C twins are thin wrappers around these.
  *
- * Camera kernels leave fragments sparsely, so many slots a pixel. `gather` puts them into a dense list, pixel by pixel,
- * each pixel's in draw order. All that follows works on the list.
+ * Camera kernels write fragments sparsely, with a fixed number of slots per pixel. `gather` compacts them into a dense
+ * list, pixel by pixel, and in draw order within each pixel. Everything after that works on the list.
  */
 #pragma once
 
@@ -10,7 +10,7 @@
 #include "kernels/gl/setup.h"
 #include "kernels/gl/userclip.h"
 
-/* Place of a work item's pixel of a rectangle in buffers of pixels whose first row is the rectangles' row 0. */
+/* Index of a work item's pixel of a rectangle, in buffers of pixels that begin with the rectangles' row 0. */
 static inline uint32_t stage_pixel(struct camera_rectangle r, uint32_t width, uint32_t item)
 {
 	uint32_t columns = (uint32_t)(r.x1 - r.x0);
@@ -18,7 +18,7 @@ static inline uint32_t stage_pixel(struct camera_rectangle r, uint32_t width, ui
 	return ((uint32_t)r.y0 + item / columns) * width + (uint32_t)r.x0 + item % columns;
 }
 
-/* gather: a pixel's fragments to their place in the list; where the column goes on next time. */
+/* gather: moves a pixel's fragments to their place in the list, and sets where its column continues next time. */
 static inline void gather_item(const struct gather_arguments *a, uint32_t item)
 {
 	const uint32_t pixel = stage_pixel(a->rectangle, a->width, item);
@@ -31,7 +31,7 @@ static inline void gather_item(const struct gather_arguments *a, uint32_t item)
 	a->after[pixel] = n == a->slots ? a->sparse[pixel * a->slots + n - 1u].order + 1u : SCENE_NONE;
 }
 
-/* Visibility of the material's lights at the item. */
+/* Visibility of the material's lights for the item. */
 static inline void stage_seen(GLOBAL const float *visibility, uint32_t n_slots, uint32_t n, uint32_t item,
                               struct vec3 *seen)
 {
@@ -41,7 +41,7 @@ static inline void stage_seen(GLOBAL const float *visibility, uint32_t n_slots, 
 		seen[slot] = v3_load(visibility + (slot * n + item) * 3u);
 }
 
-/* 1 where any of them is dimmed. */
+/* 1 if any of them is dimmed. */
 static inline int stage_dimmed(GLOBAL const float *visibility, uint32_t n_slots, uint32_t n, uint32_t item)
 {
 	int dimmed = 0;
@@ -54,20 +54,22 @@ static inline int stage_dimmed(GLOBAL const float *visibility, uint32_t n_slots,
 	return dimmed;
 }
 
-/* Lights of the list that a ray must be sent to. Expanded lines and points take no shadows. */
+/* The listed lights that need a ray. Expanded lines and points receive no shadows. */
 static inline uint32_t stage_wanted(const struct point *p, uint32_t lights)
 {
 	return p->geometry->flags & GEOMETRY_EXPANDED ? 0u : (lights & 255u) * SHADED_WANTS(0);
 }
 
-/* Whether a vertex program lights fragments of a material anew, with the lights' visibility. flags: of its geometry */
+/*
+ * Test whether a vertex program relights fragments of a material, with the lights' visibility. flags: of its geometry
+ */
 static inline int stage_is_lit_by_program(const struct shade_arguments *a, GLOBAL const struct scene_material *m,
                                           uint32_t flags)
 {
 	return a->n_slots && m->vertex_program && m->light_count && !m->surface.relit && !(flags & GEOMETRY_EXPANDED);
 }
 
-/* Whether program_item has a say in the colour of its fragments. */
+/* Test whether program_item affects the fragments' colour. */
 static inline int stage_is_by_program(const struct shade_arguments *a, GLOBAL const struct scene_material *m,
                                       uint32_t flags)
 {
@@ -83,7 +85,7 @@ static inline int stage_stippled_away(const struct tables *t, const struct point
 	return !(t->stipples[stipple * 32u + (y & 31u)] >> (31u - (x & 31u)) & 1u);
 }
 
-/* 1 where a line's pixel is none of those that are drawn (GEOMETRY_LINE). row: from the top */
+/* 1 if a pixel is not one of a line's drawn pixels (GEOMETRY_LINE). row: from the top */
 static inline int stage_undrawn(const struct point *p, uint32_t x, uint32_t row)
 {
 	GLOBAL const float *drawn = p->vertex[0]->secondary[1];
@@ -91,15 +93,15 @@ static inline int stage_undrawn(const struct point *p, uint32_t x, uint32_t row)
 	return p->geometry->flags & GEOMETRY_LINE && ((float)x < drawn[0] || (float)row < drawn[1] || (float)row > drawn[2]);
 }
 
-/* 1: no ambient light, and light from surface to surface for as many bounces as are asked for. */
+/* 1: no ambient light, but light between surfaces, up to the requested number of bounces. */
 static inline int stage_is_path(uint32_t transport)
 {
 	return transport >= TRANSPORT_PATH;
 }
 
 /*
- * A lit surface as physics would have it: emission, and what lights send straight; no ambient light, nothing clamped.
- * A surface that GL does not light shows its colour as it is.
+ * Physically based radiance of a lit surface: emission, and direct light; no ambient light, no clamping. A surface that
+ * GL does not light shows its own colour.
  */
 static inline struct vec3 stage_radiance(const struct tables *t, const struct point *p,
                                          const struct texturing *texturing, uint32_t transport, const struct vec3 *seen)
@@ -136,7 +138,7 @@ static inline struct vec3 stage_radiance(const struct tables *t, const struct po
 	               sum;
 }
 
-/* Lights of the list that stage_radiance can be lit by, and that something may stop. */
+/* The listed lights that can light a point in stage_radiance and can be shadowed. */
 static inline uint32_t stage_radiant_lights(const struct tables *t, const struct point *p)
 {
 	struct light_list list = point_lights(p);
@@ -152,7 +154,10 @@ static inline uint32_t stage_radiant_lights(const struct tables *t, const struct
 	return lights;
 }
 
-/* Lights that must be asked for before a point can be lit. from_vertices: those that light its vertices (struct lit) */
+/*
+ * Lights whose visibility must be known before a point is lit. from_vertices: those that light its vertices (struct
+ * lit)
+ */
 static inline uint32_t stage_lights(const struct tables *t, const struct point *p, uint32_t transport,
                                     uint32_t from_vertices)
 {
@@ -170,7 +175,7 @@ static inline void stage_store_direct(GLOBAL struct shaded *out, struct vec3 col
 	v3_store(out->beauty, color);
 }
 
-/* The colour by the way of lighting that is asked for; with TRANSPORT_LINEAR linear light. color: by GL's own */
+/* The colour with the requested kind of lighting; linear light with TRANSPORT_LINEAR. color: from GL's own lighting */
 static inline struct vec3 stage_relit(const struct tables *t, const struct point *p, const struct texturing *texturing,
                                       uint32_t transport, const struct vec3 *seen, struct vec4 color)
 {
@@ -186,10 +191,10 @@ static inline struct vec3 stage_relit(const struct tables *t, const struct point
 }
 
 /*
- * Share of the pixel that a smooth line or point covers (sec. 3.3.1, 3.4.2 leave the filter open), as Mesa's draw
- * module has it (22.3): ramps one pixel wide across the line's sides and ends, interpolated with perspective like any
- * attribute; of a point all pixels whose centres its circle holds. Its rim's ramp goes on inside, where it is more than
- * 1, and the rim itself has none: alphas grow towards the middle.
+ * Share of the pixel that a smooth line or point covers (sec. 3.3.1, 3.4.2 leave the filter open), as in Mesa's draw
+ * module (22.3). A line has ramps one pixel wide across its sides and ends, interpolated with perspective like any
+ * attribute. A point covers all pixels whose centres are in its circle; the ramp of its rim continues inwards, beyond
+ * 1, and is absent at the rim itself, so alphas increase towards the middle.
  */
 static inline float stage_coverage(const struct point *p)
 {
@@ -210,10 +215,9 @@ static inline float stage_coverage(const struct point *p)
 	return apart < c.z ? (1.0f - apart) / (1.0f - c.z) : 1.0f;
 }
 
-/* A pixel rectangle's extent along one axis: a place in the window (y from the top) and the texel there, at either
- * end. */
+/* A pixel rectangle's extent along one axis: a window position (y from the top) and the texel there, at either end. */
 struct stage_extent {
-	float place[2], texel[2]; /* by ascending texel */
+	float place[2], texel[2]; /* in order of ascending texel */
 };
 
 static inline struct stage_extent stage_extent_of(const struct point *p, uint32_t axis)
@@ -236,10 +240,10 @@ static inline struct stage_extent stage_extent_of(const struct point *p, uint32_
 }
 
 /*
- * The texel that one axis of a rectangle has at a pixel, in the order of operations that llvmpipe (22.3.6) has for a
- * texture's coordinate: zooms often put the middle of a pixel on the border of two texels.
- * @param base    the end at which its plane of coordinates stands on the axis
- * @param turned  texels are counted from the last
+ * The texel of a rectangle at a pixel along one axis, in the order of operations of llvmpipe (22.3.6) for a texture
+ * coordinate: with zoom, a pixel's centre is often on the border of two texels.
+ * @param base    the end of the axis where its plane of coordinates starts
+ * @param turned  1: texels are counted from the last one
  * @param across  the rectangle's size along the other axis, signed from its base
  */
 static inline float stage_texel(const struct stage_extent *e, int base, int turned, float across, uint32_t pixel,
@@ -256,9 +260,9 @@ static inline float stage_texel(const struct stage_extent *e, int base, int turn
 }
 
 /*
- * The texel of a bitmap or pixel rectangle under a fragment; y from the top. llvmpipe's planes stand on the last
- * column's end, and on the row's end where a triangle has two corners; those of a mirrored rectangle on the first
- * column's end and the last row's.
+ * The texel of a bitmap or pixel rectangle under a fragment; y from the top. llvmpipe's planes start at the last
+ * column's end, and at the row's end where a triangle has two corners; for a mirrored rectangle, at the first column's
+ * end and the last row's.
  */
 static inline GLOBAL const uint32_t *stage_pixel_group(const struct tables *t, const struct point *p, uint32_t x,
                                                        uint32_t y, uint32_t *kind)
@@ -290,8 +294,8 @@ static inline struct vec4 stage_texel_color(GLOBAL const uint32_t *group, uint32
 	          (float)(texel >> 24) / 255.0f);
 }
 
-/* What is to be done with a fragment, and for pixel rectangles its depth. group, kind: their texel; kind 0: it is of
- * none */
+/* Store a fragment's flags, and for pixel rectangles its depth. group, kind: their texel; kind 0: not a pixel
+ * rectangle */
 static inline void stage_store_flags(const struct shade_arguments *a, const struct point *p, uint32_t lights,
                                      GLOBAL const uint32_t *group, uint32_t kind, GLOBAL struct shaded *out)
 {
@@ -307,9 +311,8 @@ static inline void stage_store_flags(const struct shade_arguments *a, const stru
 }
 
 /*
- * A fragment that is seen for the first time: the weights of its attributes and its depth as its triangle or line has
- * them.
- * @return 0: nothing is drawn there, by clip planes or stipples
+ * Place a fragment that is seen for the first time: set its attribute weights and depth from its triangle or line.
+ * @return 0: clip planes or stipples leave nothing there
  */
 static inline int stage_place_first(const struct shade_arguments *a, uint32_t x, uint32_t y,
                                     const struct setup_kept *kept, struct fragment *f)
@@ -325,9 +328,9 @@ static inline int stage_place_first(const struct shade_arguments *a, uint32_t x,
 }
 
 /*
- * shade: n_slots == 0 gives a fragment its GL colour, its depth and the lights it must ask for; n_slots > 0 gives
- * fragments that asked their colour with the lights' visibility. transport: TRANSPORT_*. kept: room for the fragment's
- * triangle. keeps: 1 where earlier fragments of this launch may have left theirs there (kept->instance SCENE_NONE: they
+ * shade: n_slots == 0 computes a fragment's GL colour, its depth and the lights whose visibility it needs; n_slots > 0
+ * computes the colour of those fragments with the lights' visibility. transport: TRANSPORT_*. kept: cache for the
+ * fragment's triangle. keeps: 1 if earlier fragments of this launch may have filled it (kept->instance SCENE_NONE: they
  * have not).
  */
 static inline void shade_item(const struct shade_arguments *a, uint32_t item, int keeps, struct setup_kept *kept)
@@ -350,7 +353,7 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 		return;
 	stage_seen(a->visibility, a->n_slots, a->n, item, seen);
 
-	/* Where it lies, and whether it is drawn. */
+	/* Place it, and decide whether it is drawn. */
 	f = a->fragments[item];
 	x = a->pixels[item] % a->width;
 	y = a->pixels[item] / a->width;
@@ -362,8 +365,8 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 	}
 	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
 	coverage = stage_coverage(&p);
-	if (!(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE)) /* a line's border leaves depth even
-	                                                                          where it ends */
+	if (!(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE)) /* a line's border writes depth even where it
+                                                                            * ends */
 		drawn = a->n_slots != 0u;
 	if (drawn && p.geometry->flags & GEOMETRY_PIXELS) {
 		group = stage_pixel_group(t, &p, x, a->height - 1u - y, &kind);
@@ -374,7 +377,7 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 		return;
 	}
 
-	/* Its colour: lit, textured, in fog. */
+	/* Its colour: lit, textured, with fog. */
 	window.view = &a->views[p.geometry->view];
 	window.setup = kept->have_setup ? &kept->setup : (const struct clip_setup *)0;
 	window.kept = keeps ? &kept->sampling : (struct point_kept *)0;
@@ -412,7 +415,7 @@ static inline void clear_item(const struct clear_arguments *a, uint32_t item)
 	pixel_clear(&a->clear, &a->frame[stage_pixel(a->rectangle, a->width, item)], a->bits);
 }
 
-/* merge_samples: a pixel's samples into the pixel. */
+/* merge_samples: merges a pixel's samples. */
 static inline void merge_samples_item(const struct merge_samples_arguments *a, uint32_t item)
 {
 	pixel_merge(&a->first[item], &a->second[item], &a->third[item], &a->fourth[item], &a->frame[item]);
@@ -433,7 +436,7 @@ static inline uint32_t stage_draw(const struct tables *t, uint32_t instance, uin
 	                          0u);
 }
 
-/* A pixel's fragments of the list, in draw order, through the per-fragment operations. */
+/* Run a pixel's listed fragments through the per-fragment operations, in draw order. */
 static inline void stage_resolve(const struct resolve_arguments *a, uint32_t pixel)
 {
 	const struct tables *t = &a->tables;
@@ -452,13 +455,13 @@ static inline void resolve_item(const struct resolve_arguments *a, uint32_t item
 	stage_resolve(a, stage_pixel(a->rectangle, a->width, item));
 }
 
-/* A row of FRAME_ROW pixels that resolve_packet draws to: from first to end, in the rectangle. */
+/* A row of FRAME_ROW pixels that resolve_packet draws to: its pixels from first to end are in the rectangle. */
 struct stage_row {
-	uint32_t number; /* among all of the band */
+	uint32_t number; /* index among the band's rows */
 	uint32_t first, end;
 };
 
-/* The row of a work item; cleared, where the first fragments are to be drawn to it. */
+/* Open a work item's row, and clear it if its first fragments are about to be drawn. */
 static inline struct stage_row stage_open_row(const struct resolve_arguments *a, uint32_t item)
 {
 	const uint32_t columns = frame_columns(a->width), y = (uint32_t)a->rectangle.y0 + item / columns,

@@ -1,10 +1,10 @@
-/* A frame's data as the shading text reads it: struct tables is a group of kernels' arguments (kernels/kernels.h). */
+/* A frame's data as shading reads it: struct tables is a group of kernel arguments (kernels/kernels.h). */
 #pragma once
 
 #include "kernels/common.h"
 #include "kernels/kernels.h"
 
-/* A vertex attribute: the mesh's own, or the current one where the mesh has none. `v` counts in the mesh. */
+/* A vertex attribute: the mesh's own, or the current value if the mesh has none. `v` is a number in the mesh. */
 static inline struct vec4 tables_color(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v)
 {
 	return g->attributes & SCENE_HAS_COLOR ? v4_load(t->attributes + g->color + v * 4u) :
@@ -23,7 +23,7 @@ static inline struct vec3 tables_normal(const struct tables *t, GLOBAL const str
 	                            v3_load(t->currents[g->current].normal);
 }
 
-/* A side's material at a vertex: the mesh's own where it changes from vertex to vertex (sec. 2.6.3 lets it), or the
+/* A side's material at a vertex: the mesh's own if it changes from vertex to vertex (allowed by sec. 2.6.3), else the
  * draw's. */
 static inline GLOBAL const struct scene_face *tables_face(const struct tables *t, GLOBAL const struct geometry *g,
                                                           uint32_t v, int back)
@@ -35,7 +35,7 @@ static inline GLOBAL const struct scene_face *tables_face(const struct tables *t
 	return back ? &m->back : &m->front;
 }
 
-/* The attribute 1 + i of vertex programs. */
+/* Generic attribute 1 + i of vertex programs. */
 static inline struct vec4 tables_generic(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v,
                                          uint32_t i)
 {

@@ -8,8 +8,8 @@
 #include "kernels/gl/gauss.h"
 #include "kernels/gl/tables.h"
 
-#define TEXTURE_OUTSIDE (-0x7fffffff) /* a texel position that is the border colour */
-/* texels from here on are not told apart by footprints: steps of 1 would stand still */
+#define TEXTURE_OUTSIDE (-0x7fffffff) /* a texel position that means the border colour */
+/* footprints do not distinguish texels beyond this: steps of 1 would have no effect */
 #define TEXTURE_FAR 4194304.0f
 
 static inline uint32_t texture_level_size(uint32_t size, uint32_t level)
@@ -41,7 +41,7 @@ static inline int texture_edge(uint32_t wrap, int i, int n, uint32_t border)
 	return i < 0 ? 0 : i < n ? i : n - 1;
 }
 
-/* The texel that stands at position i of a row of n that is wrapped. */
+/* The texel at position i of a wrapped row of n texels. */
 static inline int texture_place(uint32_t wrap, int i, int n, uint32_t border)
 {
 	if (wrap == GL_REPEAT)
@@ -54,7 +54,7 @@ static inline int texture_place(uint32_t wrap, int i, int n, uint32_t border)
 }
 
 /*
- * Where a coordinate falls on a row of n texels.
+ * Texels of a row of n that a coordinate falls on.
  *
  * @param linear  0: *i0 is the nearest texel. 1: *i0, *i1 and the weight of *i1
  */
@@ -65,13 +65,16 @@ static inline void texture_wrap(uint32_t wrap, float s, int normalized, uint32_t
 	float u, base;
 
 	if (wrap == GL_REPEAT && normalized && (size & (size - 1u)))
-		s -= M_FLOOR(s); /* as llvmpipe does, which leaves powers of two to the integers' modulo */
+		s -= M_FLOOR(s); /* as in llvmpipe, which handles powers of two by integer modulo */
 	u = normalized ? s * (float)n : s;
 	if (wrap == GL_MIRROR_CLAMP_EXT || wrap == GL_MIRROR_CLAMP_TO_EDGE_EXT || wrap == GL_MIRROR_CLAMP_TO_BORDER_EXT)
 		u = M_ABS(u);
 	if (wrap == GL_CLAMP || wrap == GL_MIRROR_CLAMP_EXT)
 		u = M_MIN(M_MAX(u, 0.0f), (float)n);
-	/* With nearest filtering, CLAMP reaches no border texel (sec. 3.8.8: the coordinate 1 belongs to the last one). */
+	/*
+	 * With nearest filtering, CLAMP never reaches a border texel (sec. 3.8.8: the coordinate 1 belongs to the last
+	 * texel).
+	 */
 	if ((wrap == GL_CLAMP || wrap == GL_MIRROR_CLAMP_EXT) && !linear)
 		u = M_MIN(u, (float)n - 0.5f);
 	if (linear)
@@ -83,8 +86,8 @@ static inline void texture_wrap(uint32_t wrap, float s, int normalized, uint32_t
 	*i1 = texture_place(wrap, first + 1, n, border);
 }
 
-/* Where a texel of a level is stored; no coordinate may be outside. `layer`: slice of a 3D image, face of a cube, or
- * image of an array. */
+/* Address of a level's texel; all coordinates must be inside. `layer`: slice of a 3D image, face of a cube, or image of
+ * an array. */
 static inline GLOBAL const uint32_t *texture_words(const struct tables *t, GLOBAL const struct texture_image *image,
                                                    uint32_t level, int x, int y, int layer)
 {
@@ -101,8 +104,8 @@ static inline GLOBAL const uint32_t *texture_words(const struct tables *t, GLOBA
 	       (((uint32_t)layer * height + (uint32_t)y) * width + (uint32_t)x) * image->words;
 }
 
-/* Four bytes, red lowest, as numbers. Multiplied, not divided, so that products at the border of the next 8-bit code
- * fall on Mesa's side. */
+/* Four bytes, red lowest, as numbers. They are multiplied, not divided, so that products at the border of the next
+ * 8-bit code fall on Mesa's side. */
 static inline struct vec4 texture_unpack(uint32_t texel)
 {
 	const float scale = 1.0f / 255.0f;
@@ -111,7 +114,7 @@ static inline struct vec4 texture_unpack(uint32_t texel)
 	          (float)(texel >> 24) * scale);
 }
 
-/* The texel as a colour; outside of the image the border's. */
+/* The texel as a colour; outside the image, the border's. */
 static inline struct vec4 texture_texel(const struct tables *t, GLOBAL const struct texture_image *image,
                                         GLOBAL const struct scene_unit *unit, uint32_t level, int x, int y, int layer)
 {
@@ -131,9 +134,9 @@ static inline struct vec4 texture_texel(const struct tables *t, GLOBAL const str
 }
 
 /*
- * Filtering in 8 bits. Where every wrap is REPEAT or CLAMP_TO_EDGE, llvmpipe filters without floating point: places
- * count in 1/256 texel, and each interpolation rounds to 8 bits. The specification leaves the precision open. Exact
- * filtering differs by up to 1.5/255, which gate P sees on a large textured area.
+ * Filtering in 8 bits. If every wrap is REPEAT or CLAMP_TO_EDGE, llvmpipe filters without floating point: positions are
+ * in 1/256 texel, and each interpolation rounds to 8 bits. The specification leaves the precision open. Exact filtering
+ * differs by up to 1.5/255, which gate P detects on a large textured area.
  */
 
 static inline int texture_wrap_is_plain(uint32_t wrap)
@@ -162,7 +165,7 @@ static inline void texture_wrap_8(uint32_t wrap, float s, int normalized, uint32
 	}
 }
 
-/* 1 where a texture is filtered in 8 bits. */
+/* 1 if a texture is filtered in 8 bits. */
 static inline int texture_is_plain(GLOBAL const struct texture_image *image, GLOBAL const struct scene_unit *unit)
 {
 	if (image->base_format == GL_DEPTH_COMPONENT || image->border || image->words == 4u)
@@ -174,7 +177,7 @@ static inline int texture_is_plain(GLOBAL const struct texture_image *image, GLO
 	       (image->target != GL_TEXTURE_3D || texture_wrap_is_plain(unit->wrap_r));
 }
 
-/* One level, filtered linearly in 8 bits. c: coordinates, already divided by q; face: of a cube, layer of an
+/* One level, filtered linearly in 8 bits. c: coordinates, already divided by q; face: face of a cube, layer of an
  * array, else 0. */
 static inline uint32_t texture_level_8(const struct tables *t, GLOBAL const struct texture_image *image,
                                        GLOBAL const struct scene_unit *unit, uint32_t level, struct vec4 c, int face)
@@ -184,7 +187,7 @@ static inline uint32_t texture_level_8(const struct tables *t, GLOBAL const stru
 		  n_z = image->target == GL_TEXTURE_3D ? 2 : 1;
 	const uint32_t width = texture_level_size(image->width, level),
 		       height = n_y == 1 ? 1u : texture_level_size(image->height, level);
-	GLOBAL const uint32_t *texels = t->texels + image->level_first[level]; /* without a border: texture_is_plain */
+	GLOBAL const uint32_t *texels = t->texels + image->level_first[level]; /* no border: texture_is_plain */
 	uint32_t wx, wy = 0u, wz = 0u, sum = 0u;
 
 	z[0] = z[1] = face;
@@ -206,7 +209,7 @@ static inline uint32_t texture_level_8(const struct tables *t, GLOBAL const stru
 	return sum;
 }
 
-/* Comparison of sec. 3.8.14, and how a depth becomes a colour. */
+/* Depth comparison (sec. 3.8.14), and conversion of a depth to a colour. */
 static inline struct vec4 texture_depth(GLOBAL const struct scene_unit *unit, float depth, float reference)
 {
 	float d = depth;
@@ -282,13 +285,13 @@ static inline struct vec4 texture_level(const struct tables *t, GLOBAL const str
 	return sum;
 }
 
-/* Whether a number has its sign bit set, zero included. */
+/* Test whether a number's sign bit is set, also for zero. */
 static inline int texture_is_negative(float x)
 {
 	return (int)(M_BITS(x) >> 31u);
 }
 
-/* Face of a cube that a direction leads to (table 3.19); of equal axes z counts first, then y, as in llvmpipe. */
+/* Face of a cube for a direction (table 3.19). Between equal axes, z has priority, then y, as in llvmpipe. */
 static inline int texture_cube_face(struct vec4 c)
 {
 	float ax = M_ABS(c.x), ay = M_ABS(c.y), az = M_ABS(c.z);
@@ -298,7 +301,7 @@ static inline int texture_cube_face(struct vec4 c)
 	return ax > ay ? texture_is_negative(c.x) : 2 + texture_is_negative(c.y);
 }
 
-/* sc, tc and ma of a direction, or of the difference of two, on a face. */
+/* sc, tc and ma of a direction, or of the difference of two directions, on a face. */
 static inline struct vec3 texture_cube_axes(struct vec4 c, int face)
 {
 	switch (face) {
@@ -311,7 +314,7 @@ static inline struct vec3 texture_cube_axes(struct vec4 c, int face)
 	}
 }
 
-/* Face of a cube and its coordinates in [0,1]. */
+/* Face of a cube for a direction, and its coordinates in [0,1]. */
 static inline struct vec4 texture_cube(struct vec4 c, int *face)
 {
 	struct vec3 axes;
@@ -323,7 +326,7 @@ static inline struct vec4 texture_cube(struct vec4 c, int *face)
 	return v4(axes.x * ma + 0.5f, axes.y * ma + 0.5f, 0.0f, 1.0f);
 }
 
-/* How fast the coordinates change: texels of level 0 per pixel, to the right and downwards. */
+/* Rate of change of the coordinates: texels of level 0 per pixel, to the right and downwards. */
 struct texture_slope {
 	struct vec4 right, down;
 };
@@ -333,14 +336,14 @@ static inline int texture_is_anisotropic(const struct tables *t, GLOBAL const st
 	return unit->max_anisotropy > 1.0f && t->textures[unit->texture].target == GL_TEXTURE_2D;
 }
 
-/* 1 where the unit looks at slopes. */
+/* 1 if the unit needs slopes. */
 static inline int texture_needs_slope(const struct tables *t, GLOBAL const struct scene_unit *unit)
 {
 	return unit->min_filter != unit->mag_filter || texture_is_anisotropic(t, unit);
 }
 
-/* 1 where each pixel has slopes of its own, as llvmpipe (22.3.6) has it: on a cube of several levels. Else a quad
- * shares its upper left pixel's. */
+/* 1 if each pixel has its own slopes, as in llvmpipe (22.3.6) for cubes with several levels. Otherwise a quad shares
+ * those of its upper left pixel. */
 static inline int texture_has_own_slopes(const struct tables *t, GLOBAL const struct scene_unit *unit)
 {
 	GLOBAL const struct texture_image *image = &t->textures[unit->texture];
@@ -349,7 +352,7 @@ static inline int texture_has_own_slopes(const struct tables *t, GLOBAL const st
 	       unit->min_filter != GL_LINEAR;
 }
 
-/* A step of a direction on its face, in texels: the quotient rule. */
+/* Change of a direction on its face, in texels, by the quotient rule. */
 static inline struct vec4 texture_cube_slope(struct vec4 c, struct vec4 step, float size)
 {
 	int face = texture_cube_face(c);
@@ -360,11 +363,11 @@ static inline struct vec4 texture_cube_slope(struct vec4 c, struct vec4 step, fl
 }
 
 /*
- * Slopes from the coordinates at a pixel of a 2x2 quad and at its neighbours there, before division by q. llvmpipe
- * takes them once for each quad, at its upper left pixel, but for texture_has_own_slopes: there each pixel has those of
- * its own face, row and column. It takes coordinates of rectangles as shares of the size, too, though they are texels.
+ * Slopes from the coordinates, before division by q, at a pixel of a 2x2 quad and at its neighbours there. llvmpipe
+ * computes them once per quad, at its upper left pixel. With texture_has_own_slopes, each pixel uses its own face, row
+ * and column. llvmpipe treats coordinates of rectangles as shares of the size, too, although they are texels.
  *
- * @param right  the pixel beside it, below: the one below or above it
+ * @param right  the pixel beside it; below: the one below or above it
  */
 static inline struct texture_slope texture_slope(GLOBAL const struct texture_image *image, struct vec4 at,
                                                  struct vec4 right, struct vec4 below)
@@ -392,16 +395,16 @@ static inline float texture_lod(GLOBAL const struct scene_unit *unit, const stru
 {
 	float px2 = v4_dot(slope->right, slope->right), py2 = v4_dot(slope->down, slope->down), rho2 = M_MAX(px2, py2);
 
-	/* The short axis of the footprint decides, as long as the long one is not too much longer. */
+	/* The short axis of the footprint determines the level, unless the long one is much longer. */
 	if (anisotropic)
 		rho2 = M_MAX(M_MIN(px2, py2), rho2 / (unit->max_anisotropy * unit->max_anisotropy));
 	return M_MIN(M_MAX(texture_half_log2(rho2) + unit->lod_bias, unit->min_lod), unit->max_lod);
 }
 
 /*
- * An elliptic footprint under a Gaussian (Heckbert 1989, "Fundamentals of texture mapping and image warping", p. 59),
- * as Mesa's software renderers sample where the maximum anisotropy is over 1, magnified or not. One level only; weights
- * in 1024 steps.
+ * An elliptic footprint with a Gaussian filter (Heckbert 1989, "Fundamentals of texture mapping and image warping", p.
+ * 59), as Mesa's software renderers sample if the maximum anisotropy exceeds 1, magnified or not. One level only;
+ * weights in 1024 steps.
  */
 static inline struct vec4 texture_ellipse(const struct tables *t, GLOBAL const struct texture_image *image,
                                           GLOBAL const struct scene_unit *unit, uint32_t level,
@@ -474,8 +477,8 @@ static inline struct vec4 texture_filtered(const struct tables *t, GLOBAL const 
 	if (image->target == GL_TEXTURE_CUBE_MAP && texture_has_own_slopes(t, unit) && c.x == 0.0f && c.y == 0.0f &&
 	    c.z == 0.0f) {
 		/*
-		 * 0 / 0 as a texel's number is the least integer in llvmpipe; less the half texel of a linear filter it
-		 * is the largest.
+		 * llvmpipe converts 0 / 0 to the least integer as a texel number; minus the half texel of a linear filter, it
+		 * becomes the largest.
 		 */
 		face = texture_cube_face(c);
 		c = linear ? v4(1.0f, 1.0f, 0.0f, 1.0f) : v4(0.0f, 0.0f, 0.0f, 1.0f);
@@ -510,7 +513,7 @@ static inline struct vec4 texture_filtered(const struct tables *t, GLOBAL const 
 	return texture_level(t, image, unit, (uint32_t)level, linear, c, face);
 }
 
-/* Sample a unit's texture at coordinates s t r q. slope: NULL takes the finest level. */
+/* Sample a unit's texture at coordinates s t r q. slope: NULL selects the finest level. */
 static inline struct vec4 texture_sample(const struct tables *t, GLOBAL const struct scene_unit *unit, struct vec4 c,
                                          const struct texture_slope *slope)
 {

@@ -1,12 +1,12 @@
 /* Numbers of textures (texture.h, one_lanes.h). */
 
-/* An integer of a coordinate that may be anything, NaN too. */
+/* Convert a coordinate to an integer; it may have any value, even NaN. */
 LANES INT texture_int(REAL x)
 {
 	return TO_INT(CHOOSE(x > -1.0e9f, CHOOSE(x < 1.0e9f, x, SAME(1.0e9f)), SAME(-1.0e9f)));
 }
 
-/* Four channels at once. weight: of b, 0 to 255 for [0,1) */
+/* Interpolate four channels at once. weight: of b, 0 to 255 for [0,1) */
 LANES WORD texture_mix_8(WORD a, WORD b, WORD weight)
 {
 	WORD even = (a & 0xff00ffu) * (256u - weight) + (b & 0xff00ffu) * weight + 0x800080u;
@@ -15,7 +15,9 @@ LANES WORD texture_mix_8(WORD a, WORD b, WORD weight)
 	return (even >> 8 & 0xff00ffu) | (odd & 0xff00ff00u);
 }
 
-/* log2 of the square of a number of texels, halved: llvmpipe's logarithm, exact at powers of two, straight between. */
+/*
+ * log2 of a squared number of texels, halved: llvmpipe's logarithm, which is exact at powers of two and linear between.
+ */
 LANES REAL texture_half_log2(REAL rho2)
 {
 	const WORD bits = BITS(rho2);

@@ -1,7 +1,7 @@
 /*
- * Clip planes of the program's own (GL 2.1 sec. 2.12) at one pixel. Mesa's draw module (22.3) cuts a triangle by them
- * after the view volume's, in the same way (kernels/gl/clip.h), so that new edges run between snapped corners: what
- * counts is whether a part that is left covers the pixel, not on which side of a plane its centre lies.
+ * User clip planes (GL 2.1 sec. 2.12) at one pixel. Mesa's draw module (22.3) clips a triangle by them after the view
+ * volume's planes, in the same way (kernels/gl/clip.h), so that new edges run between snapped corners. The test is
+ * therefore whether a remaining part covers the pixel, not on which side of a plane its centre lies.
  */
 #pragma once
 
@@ -29,7 +29,7 @@ static inline float userclip_distance(const struct userclip_plane *plane, const 
 	return plane->d[0] * (1.0f - c->b1 - c->b2) + plane->d[1] * c->b1 + plane->d[2] * c->b2;
 }
 
-/* The corner of a cut, from the one that is nearer to the plane. d: their distances, one of them negative */
+/* The corner of a cut, interpolated from the corner nearer to the plane. d: their distances, one of them negative */
 static inline struct clip_corner userclip_cut(GLOBAL const struct view *view, float height, const struct clip_corner *a,
                                               const struct clip_corner *b, float d_a, float d_b)
 {
@@ -51,7 +51,7 @@ static inline struct clip_corner userclip_cut(GLOBAL const struct view *view, fl
 	return out;
 }
 
-/* Cut a polygon of n corners by a plane. @return the corners left in out */
+/* Clip a polygon of n corners by a plane. @return the number of corners in out */
 static inline uint32_t userclip_by(GLOBAL const struct view *view, float height, const struct userclip_plane *plane,
                                    const struct clip_corner *in, uint32_t n, struct clip_corner *out)
 {
@@ -69,7 +69,7 @@ static inline uint32_t userclip_by(GLOBAL const struct view *view, float height,
 	return left;
 }
 
-/* What the view volume leaves of the triangle of a fragment. @return its corners */
+/* Clip a fragment's triangle by the view volume. @return the number of corners */
 static inline uint32_t userclip_begin(GLOBAL const struct view *view, GLOBAL const struct window_vertex *windows,
                                       const struct point *p, float height, struct clip_corner *out)
 {
@@ -86,8 +86,8 @@ static inline uint32_t userclip_begin(GLOBAL const struct view *view, GLOBAL con
 }
 
 /*
- * 1 where the planes leave nothing of a fragment's triangle at a pixel. Lines and points are cut where they are made
- * into triangles (tracer/frame/expand.c).
+ * 1 if the planes clip away a fragment's triangle at a pixel. Lines and points are clipped when they are made into
+ * triangles (tracer/frame/expand.c).
  *
  * x, y  the pixel, y from the bottom
  */

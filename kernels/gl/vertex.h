@@ -1,5 +1,5 @@
-/* GL's vertex stage (GL 2.1 chapter 2): one vertex of one instance to eye, clip and window space, lit, with its texture
- * coordinates generated and transformed. */
+/* GL's vertex stage (GL 2.1 chapter 2): takes one vertex of one instance to eye, clip and window space, lights it, and
+ * generates and transforms its texture coordinates. */
 #pragma once
 
 #include "gl_tokens.h"
@@ -10,7 +10,7 @@
 
 #include "kernels/gl/vertex_lanes.h"
 
-/* Mesa's vertex programs know no denormal numbers: those below FLT_MIN. */
+/* Mesa's vertex programs treat subnormal numbers, those below FLT_MIN, as 0. */
 static inline float vertex_flush(float a)
 {
 	return M_ABS(a) < FLT_MIN ? 0.0f : a;
@@ -22,14 +22,14 @@ static inline struct vec3 vertex_eye_normal(GLOBAL const struct geometry *g, GLO
 	struct vec3 eye = vertex_turn_normal(g->normal_matrix, n);
 	struct vec3 flushed = v3(vertex_flush(eye.x), vertex_flush(eye.y), vertex_flush(eye.z));
 
-	/* A normal too short to square has length 0 there, and becomes infinite. */
+	/* There, a normal too short to square has length 0, and becomes infinite. */
 	if (m->normalize && vertex_flush(v3_dot(eye, eye)) == 0.0f &&
 	    (flushed.x != 0.0f || flushed.y != 0.0f || flushed.z != 0.0f))
 		return v3_scale(flushed, M_FLOAT(0x7f800000u));
 	return m->normalize ? v3_normalize(eye) : eye;
 }
 
-/* One side's colour of a vertex; `seen` as in light_vertex. The fragment stage calls this again for shadows. */
+/* A vertex's colour on one side; `seen` as in light_vertex. The fragment stage calls this again for shadows. */
 static inline struct lit vertex_color(const struct tables *t, GLOBAL const struct geometry *g,
                                       GLOBAL const struct shaded_vertex *vertex, uint32_t v, int back,
                                       const struct vec3 *seen)
@@ -38,7 +38,7 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 	struct vec3 normal = v3_load(vertex->normal);
 	struct lit lit;
 
-	if (m->vertex_program && seen) { /* as it has left them: program.h runs it again */
+	if (m->vertex_program && seen) { /* unchanged: program.h runs the program again */
 		lit.color = v4_load(vertex->color[back]);
 		lit.secondary = v4_load(vertex->secondary[back]);
 		lit.lights = vertex->lit[back];
@@ -58,7 +58,7 @@ static inline struct lit vertex_color(const struct tables *t, GLOBAL const struc
 	return lit;
 }
 
-/* Both sides' colours of a vertex that has its place and its normal. m: its material */
+/* Store both sides' colours of a vertex whose position and normal are known. m: its material */
 static inline void vertex_store_colors(const struct tables *t, GLOBAL const struct geometry *g,
                                        GLOBAL const struct scene_material *m, uint32_t v,
                                        GLOBAL struct shaded_vertex *out)
@@ -98,7 +98,7 @@ static inline float vertex_generate(GLOBAL const struct scene_unit *unit, uint32
 	}
 }
 
-/* Coordinates c as the unit generates and transforms them. */
+/* Coordinates c after the unit's generation and transformation. */
 static inline struct vec4 vertex_generated(GLOBAL const struct scene_unit *unit, struct vec4 c, struct vec4 obj,
                                            struct vec4 eye, struct vec3 n)
 {
@@ -117,9 +117,7 @@ static inline struct vec4 vertex_texcoord(const struct tables *t, GLOBAL const s
 	return vertex_generated(unit, tables_texcoord(t, g, v, unit->unit), obj, eye, n);
 }
 
-/*
- * The vertex stage: vertex `item` of the frame. `owner[item]` is its instance.
- */
+/* The vertex stage for vertex `item` of the frame. `owner[item]` is its instance. */
 static inline void vertex_item(const struct vertex_arguments *a, uint32_t item)
 {
 	const struct tables *t = &a->tables;
@@ -150,7 +148,7 @@ static inline void vertex_item(const struct vertex_arguments *a, uint32_t item)
 }
 
 /*
- * window: where vertex `item` of the frame, as the vertex stage left it, lies in a viewport that has moved since.
+ * window: the position of vertex `item` of the frame, as left by the vertex stage, in a viewport that has moved since.
  */
 static inline void window_item(const struct window_arguments *a, uint32_t item)
 {

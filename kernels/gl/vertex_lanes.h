@@ -1,8 +1,8 @@
 /* Formulas of the vertex stage (vertex.h, one_lanes.h). */
 
 /*
- * A colour without lighting, clamped (sec. 2.14.6). What the specification leaves open: llvmpipe makes a NaN 1 where
- * vertices carry the colour, and 0 where it is the current one.
+ * A colour without lighting, clamped (sec. 2.14.6). The specification leaves NaN open: llvmpipe makes it 1 if vertices
+ * carry the colour, and 0 if it is the current colour.
  */
 LANES VEC4 vertex_clamp(VEC4 c, uint32_t per_vertex)
 {
@@ -16,7 +16,7 @@ LANES VEC3 vertex_turn_normal(GLOBAL const float *r, VEC3 n)
 	          r[8] * n.x + r[9] * n.y + r[10] * n.z);
 }
 
-/* How far fog lies before a vertex in eye space (NV_fog_distance); squares add up as Mesa's dot products do. */
+/* Fog distance of a vertex in eye space (NV_fog_distance); squares are summed as in Mesa's dot products. */
 LANES REAL vertex_fog_distance(uint32_t source, VEC4 eye)
 {
 	if (source == GL_EYE_RADIAL_NV)
@@ -25,8 +25,8 @@ LANES REAL vertex_fog_distance(uint32_t source, VEC4 eye)
 }
 
 /*
- * Size of a point after attenuation (sec. 3.3), before it is rounded to pixels. The distance is the depth alone, as
- * Mesa has it (22.3.6, build_atten_pointsize).
+ * Size of a point after attenuation (sec. 3.3), before it is rounded to pixels. The distance is the depth alone, as in
+ * Mesa (22.3.6, build_atten_pointsize).
  */
 LANES REAL vertex_point_size(GLOBAL const struct scene_material *m, VEC4 eye)
 {

@@ -1,18 +1,18 @@
 /*
- * Vertex programs (ARB_vertex_program): instructions.h runs them, for four vertices at once. What the vertex stage has
- * made of a vertex by fixed function (vertex.h) gives way to what the program says of it: a clip position, from which
- * its eye position is found again by the projection; colours, texture coordinates, fog coordinate, size of a point. Its
- * normal stays fixed function's where its position does.
+ * Vertex programs (ARB_vertex_program); instructions.h runs them, for four vertices at once. The program's outputs
+ * replace what fixed function (vertex.h) computed for a vertex: a clip position, from which the eye position is
+ * recovered by the projection; colours, texture coordinates, fog coordinate, point size. The normal remains fixed
+ * function's if the position does.
  */
 #pragma once
 
 #include "kernels/gl/program_texture.h"
 #include "kernels/gl/vertex.h"
 
-#define VERTEX_DEPTH_INSIDE 0.9999f   /* of w: a ray's end may round, */
-#define VERTEX_DEPTH_OUTSIDE 1.00001f /* and so may a vertex that lies upon it */
+#define VERTEX_DEPTH_INSIDE 0.9999f   /* as a share of w, since a ray's end may be rounded, */
+#define VERTEX_DEPTH_OUTSIDE 1.00001f /* and so may a vertex on it */
 
-/* One of scene_vertex_input's, of a vertex in the mesh. */
+/* A vertex's input, from enum scene_vertex_input. v: number in the mesh */
 static inline struct vec4 vertex_input(const struct tables *t, GLOBAL const struct geometry *g, uint32_t v,
                                        uint32_t input)
 {
@@ -32,15 +32,16 @@ static inline struct vec4 vertex_input(const struct tables *t, GLOBAL const stru
 	}
 }
 
-/* A row of a projection; w: its last number */
+/* A row of a projection; w: its last component */
 static inline struct vec3 vertex_row(GLOBAL const float *m, uint32_t row)
 {
 	return v3(m[row], m[4u + row], m[8u + row]);
 }
 
 /*
- * Where a clip position lies in eye space: under a perspective projection the place that has its x, y and w. Depth has
- * no part in it, of which a far place would have lost most bits. Else by the inverse, with the w that it finds.
+ * Eye position for a clip position. Under a perspective projection, it is the place with the same x, y and w; depth is
+ * not used, because a far place's depth has lost most of its bits. Otherwise it is found by the inverse, with the
+ * resulting w.
  */
 static inline struct vec4 vertex_eye_from_clip(GLOBAL const struct view *view, struct vec4 clip)
 {
@@ -57,9 +58,9 @@ static inline struct vec4 vertex_eye_from_clip(GLOBAL const struct view *view, s
 }
 
 /*
- * The place of a vertex that GL draws: it has to lie between the ends of the rays that look for it. A program that
- * gives depths or a w of its own may have put it beyond them by x, y and w; then its own depth tells where on its line
- * of sight it is.
+ * Eye position of a vertex that GL draws. It has to be between the ends of the rays that look for it. A program that
+ * sets its own depth or w may have put it beyond them by x, y and w; then its own depth gives its place on the line of
+ * sight.
  */
 static inline struct vec4 vertex_drawn_eye(GLOBAL const struct view *view, struct vec4 clip)
 {
@@ -74,7 +75,7 @@ static inline struct vec4 vertex_drawn_eye(GLOBAL const struct view *view, struc
 	return at.w > 0.0f ? v4_scale(at, 1.0f / at.w) : eye;
 }
 
-/* 1 where two clip positions are one but for rounding. */
+/* 1 if two clip positions are equal apart from rounding. */
 static inline int vertex_is_same(struct vec4 a, struct vec4 b)
 {
 	const float most = 1.0e-5f * M_MAX(M_MAX(M_ABS(a.x), M_ABS(a.y)), M_MAX(M_ABS(a.z), M_ABS(a.w)));
@@ -96,7 +97,7 @@ static inline struct vec4 vertex_result_color(const struct program_run *run, GLO
 	return m->unclamped & 2u ? color : v4_clamp_vertex(color);
 }
 
-/* Lights of the material's list that a program can light a vertex by: where it has a normal, those in front of it. */
+/* The listed lights that a program can light a vertex by: if it has a normal, those in front of it. */
 static inline uint32_t vertex_lights(const struct tables *t, GLOBAL const struct scene_material *m,
                                      GLOBAL const struct shaded_vertex *vertex)
 {
@@ -114,7 +115,7 @@ static inline uint32_t vertex_lights(const struct tables *t, GLOBAL const struct
 	return m->surface.hidden & SCENE_UNSHADED ? 0u : lights;
 }
 
-/* Keep what the program has made of vertex v, number k of the four. */
+/* Store the program's results for vertex v, number k of the four. */
 static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL const struct geometry *g,
                                const struct program *program, const struct program_run *run, uint32_t v, uint32_t k)
 {
@@ -126,9 +127,10 @@ static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL 
 	if (outputs >> SCENE_RESULT_POSITION & 1u) {
 		const struct vec4 clip = vertex_result(run, SCENE_RESULT_POSITION, k);
 
-		if (!vertex_is_same(v4_load(out->clip), clip)) { /* else fixed function's eye position is the better one */
+		if (!vertex_is_same(v4_load(out->clip), clip)) { /* otherwise fixed function's eye position is more accurate */
 			v4_store(out->eye, vertex_drawn_eye(view, clip));
-			v3_store(out->normal, v3(0.0f, 0.0f, 0.0f)); /* nobody knows how the program turned it: the triangle's counts */
+			v3_store(out->normal, v3(0.0f, 0.0f, 0.0f)); /* the program's rotation is unknown, so the triangle's normal
+                                                          * is used */
 		}
 		v4_store(out->clip, clip);
 		v4_store(a->clips + (g->vertex_first + v) * 4u, clip);
@@ -148,7 +150,7 @@ static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL 
 		         vertex_result(run, SCENE_RESULT_TEXCOORD + a->tables.units[m->unit_first + i].unit, k));
 }
 
-/* Run it for up to four vertices, number[n] in the mesh. seen: as program_begin takes it */
+/* Run the program for up to four vertices, number[n] in the mesh. seen: as in program_begin */
 static inline void vertex_run(const struct tables *t, GLOBAL const struct geometry *g, const struct program *program,
                               const uint32_t *number, uint32_t n, const struct vec3 *seen, struct program_run *run)
 {
@@ -159,8 +161,8 @@ static inline void vertex_run(const struct tables *t, GLOBAL const struct geomet
 	program_execute(t, &t->materials[g->material], program, run);
 }
 
-/* vertex_program: after `vertex`; item: a vertex of the frame. Its instance's vertices go by fours, each four with the
- * first one's item. */
+/* vertex_program: runs after `vertex`; item: a vertex of the frame. Its instance's vertices are processed in fours,
+ * each by the item of its first vertex. */
 static inline void vertex_program_item(const struct vertex_program_arguments *a, uint32_t item)
 {
 	GLOBAL const struct geometry *g = &a->tables.geometries[a->owners[item]];

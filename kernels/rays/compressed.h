@@ -1,6 +1,6 @@
 /*
- * Reading struct node8c (kernels/shared.h), box by box. In what C and OpenCL C have in common: for the builder, the C
- * twins, and kernels that look at one child at a time. kernels/rays/compressed_node.h has a way of its own, for eight
+ * Reads struct node8c (kernels/shared.h), box by box. Written in the common subset of C and OpenCL C: for the builder,
+ * the C twins, and kernels that look at one child at a time. kernels/rays/compressed_node.h has separate code for eight
  * at once.
  */
 #pragma once
@@ -12,19 +12,19 @@ static inline uint32_t node8c_byte(GLOBAL const uint32_t *words, uint32_t slot)
 	return words[slot >> 2] >> 8 * (slot & 3u) & 255u;
 }
 
-/* Step of the grid along an axis: a power of two. */
+/* Grid step along an axis: a power of two. */
 static inline float node8c_step(uint32_t exponents, uint32_t axis)
 {
 	return M_FLOAT((exponents >> 8 * axis & 255u) << 23);
 }
 
-/* A plane of the grid. */
+/* Coordinate of a grid plane. */
 static inline float node8c_plane(float origin, float step, uint32_t byte)
 {
 	return M_FMA((float)byte, step, origin);
 }
 
-/* The box of the child in a slot. @return 0: there is no child */
+/* The box of the child in a slot. @return 0: the slot is empty */
 static inline int node8c_box(GLOBAL const struct node8c *node, uint32_t slot, float lo[3], float hi[3])
 {
 	for (uint32_t a = 0; a < 3; a++) {
@@ -37,9 +37,9 @@ static inline int node8c_box(GLOBAL const struct node8c *node, uint32_t slot, fl
 }
 
 /*
- * What the child in a slot is.
- * @param first  receives its number among the nodes, or its first triangle
- * @return 0: a node; else how many triangles
+ * The child in a slot.
+ * @param first  receives its node index, or its first triangle
+ * @return 0: a node; else its number of triangles
  */
 static inline uint32_t node8c_child(GLOBAL const struct node8c *node, uint32_t slot, uint32_t *first)
 {

@@ -1,17 +1,17 @@
 /*
- * A node of 80 bytes (struct node8c) and one ray: all eight children at once, in numbers alone. OpenCL C only; for
- * kernels that trace one ray a work item.
+ * Tests an 80-byte node (struct node8c) against one ray: all eight children at once, in scalar code. OpenCL C only; for
+ * kernels that trace one ray per work item.
  */
 #pragma once
 
 #include "kernels/rays/walk.h"
 
-/* Where the planes of a node's grid are along the ray's axis: at `byte` times step from `near` or `far`. */
+/* Distances of a node's grid planes along one axis of the ray: `near` or `far` plus `byte` times step. */
 struct grid_axis {
 	float near, near_step, far, far_step;
 };
 
-/* Slack as for other boxes, of what is added up: the grid's origin, and the ray's. */
+/* The same slack as for other boxes, in proportion to the terms: the grid's origin, and the ray's. */
 static inline struct grid_axis grid_axis(float origin, uint exponent, float i, float near, float far)
 {
 	const float step = as_float(exponent << 23) * i, at = origin * i;
@@ -30,12 +30,12 @@ static inline float byte_of(uint word, uint k)
 }
 
 /*
- * Which of a node's children the ray meets.
- * @param octant     bit a set: the ray goes up along a
- * @param triangles  receives a bit for each triangle of the leaves that it meets, from triangle_first on
+ * The children of a node that the ray meets.
+ * @param octant     a set bit: the ray's direction is positive along that axis
+ * @param triangles  receives a bit for each triangle of the leaves that it meets, counted from triangle_first
  * @param head       receives the node's first children: x nodes, y triangles
- * @return a bit for each node that it meets, at slot ^ octant, the last one the nearest, and from bit 8 on which slots
- * are nodes
+ * @return a bit for each node that it meets, at slot ^ octant, with the nearest last; from bit 8 on, the slots that are
+ *         nodes
  */
 static inline uint meet_compressed(const struct walk *w, uint octant, __global const struct node8c *node,
                                    uint *triangles, uint2 *head)

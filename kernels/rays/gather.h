@@ -1,11 +1,11 @@
-/* Entries of a table for sixteen lanes at once, turned into rows, and back. OpenCL C only. */
+/* Loads table entries for sixteen lanes at once, transposed into rows, and back. OpenCL C only. */
 #pragma once
 
 #include "kernels/rays/lanes.h"
 
 /*
- * Quarters of two rows, four numbers each, turned into each other: one instruction each. Where they are written number
- * by number, LLVM 15 makes long chains of them and of the loads before, in which each step waits for the last.
+ * Transpose quarters of two rows, four numbers each, with one instruction per result. If written number by number, LLVM
+ * 15 turns them and the preceding loads into long chains of dependent steps.
  */
 #if LANES_OWN(__builtin_shufflevector)
 #define GATHER_TURN(a, b, i, j, k, l) \
@@ -26,7 +26,7 @@
 	(packf)(a.s2, a.s3, b.s2, b.s3, a.s6, a.s7, b.s6, b.s7, a.sa, a.sb, b.sa, b.sb, a.se, a.sf, b.se, b.sf)
 #endif
 
-/* Four numbers with the alignment of one: PoCL's vload4 takes them two by two. */
+/* Four numbers with the alignment of one. PoCL's vload4 loads them two at a time. */
 typedef float4 gather_loose __attribute__((aligned(4)));
 
 INLINED float4 gather_four(__global const float *at)
@@ -35,8 +35,8 @@ INLINED float4 gather_four(__global const float *at)
 }
 
 /*
- * Four numbers of sixteen lanes, from rows to lanes or back: a lane's, as a quarter, are those of lane 4 q + k in
- * quarter q of the kth. Turned twice they are as they were.
+ * Transpose four numbers of sixteen lanes between rows and lanes. As a lane's data, quarter q of the kth vector belongs
+ * to lane 4 q + k. Applying it twice restores the original.
  */
 WIDE_VECTORS INLINED void pack_turn_rows(packf a, packf b, packf c, packf d, packf *turned)
 {
@@ -48,7 +48,7 @@ WIDE_VECTORS INLINED void pack_turn_rows(packf a, packf b, packf c, packf d, pac
 	turned[3] = GATHER_SECOND_PAIRS(ab_high, cd_high);
 }
 
-/* Four numbers from each of sixteen places on, turned into rows. */
+/* Load four numbers from each of sixteen addresses, transposed into rows. */
 WIDE_VECTORS INLINED void pack_gather_from(__global const float *table, packu place, packf *row)
 {
 	const packf a = (packf)(gather_four(table + place.s0), gather_four(table + place.s4),
@@ -63,7 +63,7 @@ WIDE_VECTORS INLINED void pack_gather_from(__global const float *table, packu pl
 	pack_turn_rows(a, b, c, d, row);
 }
 
-/* Sixteen of a table's entries of four numbers. */
+/* Load sixteen of a table's entries of four numbers. */
 WIDE_VECTORS INLINED void pack_gather(__global const float *table, packu index, packf *row)
 {
 	pack_gather_from(table, index * 4, row);

@@ -1,13 +1,13 @@
 /*
- * What a comparison of eight lanes says (a set lane has all bits). OpenCL C only. The language has any() and no way to
- * get at all eight bits; where the compiler and the processor have one instruction for it, that is used.
+ * Converts the result of comparing eight lanes (a set lane has all bits set). OpenCL C only. The language has any(),
+ * but no way to get all eight bits at once. If the compiler and the processor have an instruction for that, it is used.
  */
 #pragma once
 
 /*
- * Sixteen lanes are passed by value, to fma() and select() too. Clang warns where the processor has narrower registers:
- * code of a wider processor would pass them otherwise. A program and its device's library are compiled for one
- * processor, so there is no such code.
+ * Sixteen lanes are passed by value, also to fma() and select(). Clang warns if the processor has narrower registers,
+ * as code for a wider processor would pass them differently. A program and its device's library are compiled for the
+ * same processor, so no such code exists.
  */
 #ifdef __clang__
 #pragma clang diagnostic ignored "-Wpsabi"
@@ -29,9 +29,9 @@
 #endif
 
 /*
- * Functions of the compiler's own, where it takes what Clang's language offers: PoCL's compiles for a processor,
- * Intel's says SPIR. Others translate and fail (rusticl 22.3: "Unexpected llvm intrinsic: llvm.prefetch").
- * LANES_PORTABLE: for interpreters of kernels.
+ * Compiler builtins, if the compiler accepts Clang's extensions: PoCL's compiles for a processor, Intel's targets SPIR.
+ * Others accept them but fail later (rusticl 22.3: "Unexpected llvm intrinsic: llvm.prefetch"). LANES_PORTABLE: for
+ * interpreters of kernels.
  */
 #if defined(__has_builtin) && !defined(LANES_PORTABLE) && \
 	(defined(__x86_64__) || defined(__aarch64__) || defined(__SPIR__))
@@ -44,15 +44,15 @@
 #define LANES_REDUCE 1
 #endif
 
-/* Let what stands at p come near: it is read soon. What the language's own prefetch does is up to the device, and PoCL
- * leaves it out. */
+/* Prefetch the data at p, which is about to be read. The effect of the language's own prefetch is up to the device, and
+ * PoCL ignores it. */
 #if LANES_OWN(__builtin_prefetch)
 #define PREFETCH(p) __builtin_prefetch((const void *)(size_t)(p))
 #else
 #define PREFETCH(p) ((void)(p))
 #endif
 
-/* One bit a lane. */
+/* A bit for each lane. */
 static inline uint lane_bits(int8 mask)
 {
 #ifdef LANES_MOVEMASK
@@ -75,7 +75,7 @@ static inline int any_lane(int8 mask)
 #endif
 }
 
-/* Minimum and maximum as the processor has them, one instruction: where x is a NaN the result is y. */
+/* Minimum and maximum as a single processor instruction: if x is NaN, the result is y. */
 static inline float8 lanes_min(float8 x, float8 y)
 {
 	return select(y, x, x < y);
@@ -86,7 +86,7 @@ static inline float8 lanes_max(float8 x, float8 y)
 	return select(y, x, x > y);
 }
 
-/* Sixteen lanes in one register where there is one: the compiler would rather halve them. */
+/* Keep sixteen lanes in one register if there is one; the compiler would rather split them. */
 #if defined(__AVX512F__) && defined(__has_attribute)
 #if __has_attribute(min_vector_width)
 #define WIDE_VECTORS __attribute__((min_vector_width(512)))
@@ -96,7 +96,7 @@ static inline float8 lanes_max(float8 x, float8 y)
 #define WIDE_VECTORS
 #endif
 
-/* Rows of a packet: sixteen rays. Processors with eight lanes do them as two halves, which hides latency as well. */
+/* Rows of a packet: sixteen rays. Processors with eight lanes process them as two halves, which also hides latency. */
 typedef float16 packf;
 typedef int16 packi;
 typedef uint16 packu;
@@ -113,7 +113,7 @@ static inline int any_pack(packi mask)
 #endif
 }
 
-/* One bit a lane. */
+/* A bit for each lane. */
 static inline uint pack_bits(packi mask)
 {
 #ifdef LANES_MASK16
@@ -144,8 +144,8 @@ WIDE_VECTORS static inline packf pack_pick(packf table, packi index)
 }
 
 /*
- * Words of a table in any address space at sixteen places, lane by lane. Places are below 2^31. The language has no
- * such thing, and LLVM 15 makes loads and moves of a loop.
+ * Load words at sixteen indices of a table in any address space. Indices are below 2^31. The language has no such
+ * function, and LLVM 15 compiles a loop to separate loads and moves.
  */
 #if LANES_OWN(__builtin_ia32_gathersiv16si) && defined(__AVX512F__)
 #define PACK_WORDS(table, place) \

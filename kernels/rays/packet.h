@@ -1,11 +1,11 @@
 /*
- * Sixteen rays as rows of a lane each against eight-wide trees, one box or triangle at a time. OpenCL C only; included
- * by occlude_packet and intersect_packet.
+ * Sixteen rays, one per lane, against eight-wide trees, one box or triangle at a time. OpenCL C only; included by
+ * occlude_packet and intersect_packet.
  *
  * Boxes: with i = 1/d, a ray meets a plane at p at t = p * i - o * i. Both products are kept in two roundings, so that
- * rounding misses no box (far planes with p * i < 0 come nearer because i is larger; o * i makes up for it). The signs
- * of d alone decide which of a box's planes comes first; where they differ within a packet each lane picks its own. A
- * ray sleeps where t_max is below t_min.
+ * rounding misses no box (far planes with p * i < 0 come nearer because i is larger; o * i makes up for it). Only the
+ * signs of d determine which of a box's planes comes first; if they differ within a packet, each lane selects its own.
+ * A ray is asleep if t_max is below t_min.
  */
 #pragma once
 
@@ -19,8 +19,8 @@ struct packet {
 	packf ox, oy, oz, dx, dy, dz;
 	packf ix, iy, iz;                      /* 1/d, finite */
 	packf far_ix, far_iy, far_iz;          /* the same rounded away from 0 */
-	packf near_x, near_y, near_z;          /* rounded down: what is added to near planes */
-	packf far_x, far_y, far_z;             /* and up, to far planes */
+	packf near_x, near_y, near_z;          /* rounded down: added to near planes */
+	packf far_x, far_y, far_z;             /* rounded up: added to far planes */
 	packf t_min, t_max;
 };
 
@@ -29,7 +29,7 @@ static inline packf pack_invert(packf d)
 	return 1.0f / select(copysign((packf)(1e-20f), d), d, fabs(d) > 1e-20f);
 }
 
-/* Fill in what follows from o and d. */
+/* Set the members that follow from o and d. */
 static inline void packet_prepare(struct packet *p)
 {
 	const packf ix = pack_invert(p->dx), iy = pack_invert(p->dy), iz = pack_invert(p->dz);
@@ -41,13 +41,13 @@ static inline void packet_prepare(struct packet *p)
 	p->far_x = bx + fabs(bx) * 1.5e-6f, p->far_y = by + fabs(by) * 1.5e-6f, p->far_z = bz + fabs(bz) * 1.5e-6f;
 }
 
-/* Lanes whose distances to boxes are numbers. */
+/* The lanes whose distances to boxes are finite numbers. */
 static inline packi packet_in_range(const struct packet *p)
 {
 	return (fabs(p->ox * p->ix) < RAYS_RANGE) & (fabs(p->oy * p->iy) < RAYS_RANGE) & (fabs(p->oz * p->iz) < RAYS_RANGE);
 }
 
-/* o and d moved from eye to object space. */
+/* Transform o and d from eye to object space. */
 static inline void packet_transform(struct packet *p, const struct packet *eye, __global const float *m)
 {
 	p->ox = fma(m[2], eye->oz, fma(m[1], eye->oy, fma(m[0], eye->ox, m[3])));
@@ -58,13 +58,13 @@ static inline void packet_transform(struct packet *p, const struct packet *eye, 
 	p->dz = fma(m[10], eye->dz, fma(m[9], eye->dy, m[8] * eye->dx));
 }
 
-/* Per lane, 1 bit each: the signs of the directions. */
+/* The signs of the directions, 1 bit each, per lane. */
 static inline packi packet_octants(const struct packet *p)
 {
 	return (as_int16(p->ix) >> 31 & 1) | (as_int16(p->iy) >> 31 & 2) | (as_int16(p->iz) >> 31 & 4);
 }
 
-/* Where in a node8 the rows lie of the planes that an octant meets first and last. */
+/* Offsets in a node8 of the rows of the near and far planes for an octant. */
 struct planes {
 	uint near_x, near_y, near_z, far_x, far_y, far_z;
 };
@@ -79,14 +79,14 @@ static inline struct planes octant_planes(int octant)
 	return s;
 }
 
-/* How far boxes are looked at: walk_end of kernels/rays/walk.h. A ray that needs no more (t_max -infinity) gets a NaN,
- * and meets none. */
+/* Largest distance at which boxes are tested: walk_end of kernels/rays/walk.h. For a finished ray (t_max -infinity) it
+ * is NaN, so that the ray meets no box. */
 static inline packf packet_end(const struct packet *p)
 {
 	return fma(fabs(p->t_max), RAYS_END_SLACK, p->t_max);
 }
 
-/* Lanes that meet a node's box before `end`, all of one octant. bounds: the node's first float of that box. */
+/* Lanes that meet a node's box before `end`, all with the same octant. bounds: the node's first float of that box. */
 static inline packi packet_meets(const struct packet *p, packf end, __global const float *bounds, struct planes s)
 {
 	const packf enter = pack_max(
@@ -100,10 +100,10 @@ static inline packi packet_meets(const struct packet *p, packf end, __global con
 }
 
 /*
- * Bounds of the rays of a packet of one octant: per axis the corner of their origins that enters a box first, the one
- * that leaves it last, and least and greatest 1/d. No ray meets a box that the beam misses (interval arithmetic:
- * Reshetov, Soupikov and Hurley 2005, "Multi-level ray tracing algorithm"). A beam tests eight boxes at once, whatever
- * the number of rays.
+ * Bounds of the rays of a packet with a single octant: per axis, the corner of their origins that enters a box first,
+ * the one that leaves it last, and the least and greatest 1/d. No ray meets a box that the beam misses (interval
+ * arithmetic: Reshetov, Soupikov and Hurley 2005, "Multi-level ray tracing algorithm"). A beam tests eight boxes at
+ * once, however many rays there are.
  */
 struct beam {
 	float near_o[3], far_o[3], least[3], greatest[3], t_min, t_max;
@@ -125,7 +125,7 @@ static inline float sum_of(packf x)
 	return four.x + four.y + (four.z + four.w);
 }
 
-/* Bounds of a value of n packets' awake rays: the least, and the least of the negated values. */
+/* Bounds of a value over the awake rays of n packets: the least value, and the least of the negated values. */
 struct bounds {
 	packf least, opposite;
 };
@@ -156,7 +156,7 @@ static inline struct beam beam_around(const struct packet *p, uint n, int octant
 		const float least = least_of(bounds[axis].least), greatest = -least_of(bounds[axis].opposite);
 		const float size = fmax(fabs(least), fabs(greatest)), sign = octant >> axis & 1 ? -1 : 1;
 
-		/* As generous as packet_meets, so that no ray depends on those beside it. */
+		/* With the same slack as packet_meets, so that no ray depends on its neighbours. */
 		b.near_o[axis] = fma(sign * size, 5e-7f, sign > 0 ? greatest : least);
 		b.far_o[axis] = fma(sign * size, -2.5e-6f, sign > 0 ? least : greatest);
 		b.least[axis] = least_of(bounds[3 + axis].least);
@@ -181,7 +181,7 @@ static inline float8 beam_leaves(const struct beam *b, int axis, float8 plane)
 	return lanes_max(d * b->least[axis], d * b->greatest[axis]);
 }
 
-/* One bit for each of a node's boxes that rays of the beam may meet. All is rounded in proportion to itself. */
+/* A bit for each of a node's boxes that rays of the beam may meet. Slack for rounding is relative to each term. */
 static inline uint beam_meets(const struct beam *b, __global const struct node8 *node, struct planes s)
 {
 	__global const float *rows = (__global const float *)node;
@@ -195,7 +195,7 @@ static inline uint beam_meets(const struct beam *b, __global const struct node8 
 	return lane_bits(enter <= fma(fabs(leave), 3e-6f, leave));
 }
 
-/* The same whatever the octants. */
+/* The same for any mix of octants. */
 static inline packi packet_meets_any(const struct packet *p, packf end, __global const struct node8 *node, uint side)
 {
 	const packf lo_x = node->lo[0][side], hi_x = node->hi[0][side], lo_y = node->lo[1][side], hi_y = node->hi[1][side];
@@ -211,7 +211,7 @@ static inline packi packet_meets_any(const struct packet *p, packf end, __global
 	return enter <= leave;
 }
 
-/* The octant of all lanes of n packets that are awake; -1: there are several. */
+/* The octant of all awake lanes of n packets; -1: there are several. */
 static inline int packet_octant(const struct packet *p, uint n)
 {
 	packi all = -1, some = 0;
@@ -233,7 +233,7 @@ static inline int packet_octant(const struct packet *p, uint n)
 	return octant;
 }
 
-/* Of some lanes those that do not see a triangle edge-on. */
+/* The lanes, out of a set, that do not see a triangle edge-on. */
 static inline packi packet_faces(const struct packet *p, __global const struct triangle8 *block, uint lane,
                                  packf inverse)
 {
@@ -243,7 +243,10 @@ static inline packi packet_faces(const struct packet *p, __global const struct t
 	return RAYS_FLAT * e1 * e2 * (pack_max(pack_max(fabs(p->dx), fabs(p->dy)), fabs(p->dz)) * fabs(inverse)) < 1.0f;
 }
 
-/* Moeller and Trumbore: of some lanes those hit at t in t_min .. t_max, and where. passes: as rays_passes */
+/*
+ * Moeller and Trumbore: the lanes, out of a set, with a hit at t in t_min .. t_max, and its position. passes: as
+ * rays_passes
+ */
 static inline packi packet_triangle(const struct packet *p, uint lanes, uint passes,
                                     __global const struct triangle8 *block, uint lane, packf *t_out, packf *b1,
                                     packf *b2)

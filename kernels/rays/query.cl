@@ -1,4 +1,4 @@
-/* Questions of programs other than a renderer: see kernels/rays/query.h. Compiled where they are asked. */
+/* Queries for programs other than a renderer: see kernels/rays/query.h. Compiled only when used. */
 #include "kernels/rays/query.h"
 
 __kernel void query_all(KERNEL_ARGUMENTS(query_all)) KERNEL_ITEMS(query_all, n)

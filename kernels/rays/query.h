@@ -1,20 +1,20 @@
 /*
- * query_all, query_distance, query_box, query_sphere: questions that programs other than a renderer ask of a scene. One
- * binary tree, all triangles in one space, each in one leaf (ACCEL_BVH). Text for C and OpenCL C: the twins are built
- * from it, too. What it gives is compared with brute force (tests/query/).
+ * query_all, query_distance, query_box, query_sphere: scene queries for programs other than a renderer. There is one
+ * binary tree with all triangles in one space, each in a single leaf (ACCEL_BVH). The text is for both C and OpenCL C,
+ * so the twins are built from it, too. Results are compared with brute force (tests/query/).
  *
  *   all       triangles that a ray hits, by the rule of kernels/rays/rays.h; the nearest `most` of them, sorted by t,
  *             then by number
  *   distance  the point of any triangle that is nearest to a point, at most `most` away
  *   box       first contact of a moving box with a triangle, by separating axes: along each axis the box overlaps the
- *             triangle from one moment to another, and they meet when the last axis begins, unless one has ended by
- *             then (Ericson 2005, "Real-Time Collision Detection", section 5.5.8). Triangles are surfaces: what lies
- *             within a closed mesh touches nothing
- *   sphere    the same of a sphere: the distance of a moving point from a triangle is a convex function of its way,
- *             whose tangent leads from before the contact to no more than the contact (Newton)
+ *             triangle during an interval, and they meet when the last interval begins, unless another has ended by
+ *             then (Ericson 2005, "Real-Time Collision Detection", section 5.5.8). Triangles are surfaces: a body
+ *             inside a closed mesh touches nothing
+ *   sphere    the same for a sphere: the distance of a moving point from a triangle is a convex function of its path,
+ *             so Newton's method along the tangent approaches the contact without passing it
  *
- * Triangles without area count for distance, box and sphere as the segment or point that they are. Of several answers
- * that are equal the lowest triangle counts. A query with a NaN or an infinite number finds nothing.
+ * For distance, box and sphere, triangles without area count as the segments or points that they are. Between equal
+ * answers, the lowest triangle wins. A query with a NaN or an infinite number finds nothing.
  */
 #pragma once
 
@@ -27,38 +27,42 @@
 #define QUERY_BOX 2u
 #define QUERY_SPHERE 3u
 
-/* By how much boxes of nodes grow, as a share of the numbers that say where they are: more than what rounding does to
- * an answer. */
+/* Padding of node boxes, as a share of the numbers that give their position: more than the rounding error of an
+ * answer. */
 #define QUERY_PAD 2e-6f
-/* The same for t, and how close to a sphere a triangle touches it. */
+/* The same for t, and the distance at which a triangle counts as touching a sphere. */
 #define QUERY_SLACK 1e-5f
 #define QUERY_TOUCH 1e-6f
 /*
- * By how much the direction to the nearest point may be wrong: where an edge is as near as a face but for rounding, the
- * square root of that, over the distance. Steps towards a triangle are shorter by as much, and at least by QUERY_TURN.
+ * Possible error of the direction to the nearest point: if an edge is as near as a face apart from rounding, it is the
+ * square root of that rounding, divided by the distance. Steps towards a triangle are shortened accordingly, and at
+ * least by QUERY_TURN.
  */
 #define QUERY_TURN 1e-3f
 #define QUERY_ROUNDING 5e-7f
-/* So far apart, as a share of the distance, may the point above a face lie from where weights of its corners say. */
+/*
+ * Largest distance, as a share of the query's distance, between the foot point on a face and the point that the corner
+ * weights give.
+ */
 #define QUERY_APART 1e-5f
 #define QUERY_STEPS 64u
 
-/* A question on its way through the tree. */
+/* State of a query during traversal. */
 struct query {
-	struct vec3 o, d;    /* point, ray, or way of a body's centre */
+	struct vec3 o, d;    /* point, ray, or path of a body's centre */
 	struct vec3 inverse; /* of d */
-	struct vec3 size;    /* by which a body reaches beyond its centre */
-	float radius;        /* of the sphere */
+	struct vec3 size;    /* how far a body extends beyond its centre */
+	float radius;        /* the sphere's radius */
 	float t_min;
-	float far;           /* beyond it nothing counts: t; the distance, squared */
-	float extent;        /* largest number that says where the query is */
+	float far;           /* cutoff: t, or the distance squared */
+	float extent;        /* largest number in the query's coordinates */
 	struct vec3 at;      /* distance: the nearest point so far */
-	uint32_t primitive;  /* of the best answer so far */
-	GLOBAL struct hit *hits; /* all: the nearest so far, of `most` */
+	uint32_t primitive;  /* triangle of the best answer so far */
+	GLOBAL struct hit *hits; /* all: the nearest `most` hits so far */
 	uint32_t most, count;
 };
 
-/* 0 for NaN and what is too large, too. */
+/* 0 also for NaN and for numbers that are too large. */
 static inline int query_is_finite(struct vec3 v)
 {
 	return M_ABS(v.x) < RAYS_RANGE && M_ABS(v.y) < RAYS_RANGE && M_ABS(v.z) < RAYS_RANGE;
@@ -86,7 +90,7 @@ static inline struct vec3 query_cross(struct vec3 a, struct vec3 b)
 
 /* --- Boxes of nodes ---------------------------------------------------------------------------------------------- */
 
-/* Along one axis, where the way enters and leaves [lo, hi]. */
+/* Where the path enters and leaves [lo, hi] along one axis. */
 static inline void query_slab(float lo, float hi, float o, float inverse, float *enter, float *leave)
 {
 	const float a = (lo - o) * inverse, b = (hi - o) * inverse;
@@ -95,7 +99,7 @@ static inline void query_slab(float lo, float hi, float o, float inverse, float 
 	*leave = M_MIN(*leave, M_MAX(a, b));
 }
 
-/* The least that anything in a box can answer: t; the distance, squared. Infinite where it cannot count. */
+/* Lower bound for an answer inside a box: t, or the distance squared. Infinite if it cannot count. */
 static inline float query_bound(const struct query *q, uint32_t kind, GLOBAL const float *lo, GLOBAL const float *hi)
 {
 	const struct vec3 least = v3_load(lo), most = v3_load(hi);
@@ -126,7 +130,7 @@ struct query_triangle {
 	uint32_t primitive;
 };
 
-/* Where on an edge from `a` along `e` the point p is nearest. */
+/* Parameter of the point nearest to p on an edge from `a` along `e`. */
 static inline float query_along(struct vec3 p, struct vec3 a, struct vec3 e)
 {
 	const float length2 = query_dot(e, e);
@@ -144,7 +148,10 @@ static inline void query_take_nearer(struct vec3 away, struct vec3 *best, float 
 	}
 }
 
-/* The vector from a triangle's nearest point to p. Edges first, so that triangles without area have an answer. */
+/*
+ * The vector from a triangle's nearest point to p. Edges are tested first, so that triangles without area have an
+ * answer.
+ */
 static inline struct vec3 query_away(const struct query_triangle *t, struct vec3 p)
 {
 	const struct vec3 side = v3_sub(t->e2, t->e1), from = v3_sub(p, t->v0), n = query_cross(t->e1, t->e2);
@@ -163,7 +170,9 @@ static inline struct vec3 query_away(const struct query_triangle *t, struct vec3
 					  across = v3_scale(n, query_dot(from, n) / n2);
 			const struct vec3 apart = v3_sub(off, across);
 
-			/* A needle's normal is rounded to another one: its plane is nearer than any point of it. */
+			/*
+			 * A needle's normal can be rounded to a different one, so that its plane is nearer than any of its points.
+			 */
 			query_take_nearer(query_dot(apart, apart) <= QUERY_APART * QUERY_APART * query_dot(off, off) ?
 			                          across :
 			                          off,
@@ -216,7 +225,7 @@ static inline void query_try_sphere(struct query *q, const struct query_triangle
 	}
 }
 
-/* When the box and the triangle overlap along an axis; the span so far becomes no longer. */
+/* The interval during which the box and the triangle overlap along an axis, intersected with the interval so far. */
 static inline void query_axis(const struct query *q, const struct query_triangle *t, struct vec3 axis, float *enter,
                               float *leave)
 {
@@ -234,8 +243,8 @@ static inline void query_axis(const struct query *q, const struct query_triangle
 	*leave = M_MIN(*leave, (speed > 0.0f ? hi : lo) / speed);
 }
 
-/* Axes across an edge of the triangle and one of the box. What is all but parallel says nothing that faces do not say
- * better. */
+/* Axes perpendicular to an edge of the triangle and one of the box. Almost parallel edges are skipped, as faces are
+ * then better axes. */
 static inline void query_edge(const struct query *q, const struct query_triangle *t, struct vec3 e, float *enter,
                               float *leave)
 {
@@ -266,7 +275,7 @@ static inline void query_try_box(struct query *q, const struct query_triangle *t
 		query_take_contact(q, enter, t->primitive);
 }
 
-/* A hit among those that are kept, if it is one of the nearest. */
+/* Insert a hit into the stored ones, if it is among the nearest. */
 static inline void query_keep(struct query *q, float t, float u, float v, uint32_t primitive)
 {
 	uint32_t place = q->count < q->most ? q->count : q->most;
@@ -288,7 +297,7 @@ static inline void query_keep(struct query *q, float t, float u, float v, uint32
 	q->hits[place].primitive = primitive;
 }
 
-/* Moeller and Trumbore, as kernels/rays/rays.h says. */
+/* Moeller and Trumbore, as specified in kernels/rays/rays.h. */
 static inline void query_try_ray(struct query *q, const struct query_triangle *triangle)
 {
 	const struct vec3 s = v3(-triangle->v0.x, -triangle->v0.y, -triangle->v0.z);
@@ -321,7 +330,7 @@ static inline void query_try(struct query *q, uint32_t kind, GLOBAL const struct
 
 /* --- The walk ---------------------------------------------------------------------------------------------------- */
 
-/* Through the tree, nearer sides first. */
+/* Traverse the tree, nearer sides first. */
 static inline void query_walk(struct query *q, uint32_t kind, GLOBAL const struct node2 *nodes,
                               GLOBAL const struct triangle *triangles)
 {
@@ -361,7 +370,7 @@ static inline void query_walk(struct query *q, uint32_t kind, GLOBAL const struc
 	}
 }
 
-/* A query along a way. @return 0: it finds nothing by definition */
+/* Start a query along a path. @return 0: it finds nothing by definition */
 static inline int query_start(struct query *q, GLOBAL const float *o, GLOBAL const float *d)
 {
 	q->o = v3_load(o);

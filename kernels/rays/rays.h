@@ -1,36 +1,37 @@
 /*
- * occlude and intersect, each _packet, _wide, _binary and _compressed: rays in eye space against a top level and the
- * instances' trees. Included by C and OpenCL C.
+ * occlude and intersect, each _packet, _wide, _binary and _compressed: trace rays in eye space through a top level and
+ * the instances' trees. Included by C and OpenCL C.
  *
  * Triangles are tested after Moeller and Trumbore 1997 ("Fast, minimum storage ray/triangle intersection"), both sides,
- * in the instance's object space, where t keeps its meaning. A hit counts where t_min <= t <= t_max. Triangles without
+ * in the instance's object space, where t keeps its meaning. A hit counts if t_min <= t <= t_max. Triangles without
  * area, triangles seen edge-on (RAYS_FLAT), rays with t_min > t_max and rays with a NaN or an infinite o or d hit
  * nothing. Nor do rays with a component of o / d beyond RAYS_RANGE, in eye space or an instance's (a smaller d counts
- * as 1e-20): boxes could not be told apart.
+ * as 1e-20), because boxes could not be distinguished.
  *
- * Rays that start far from an instance are moved along themselves until they are near it, in its object space: the test
- * rounds in proportion to the distance, and at a million times an instance's size would hit what the ray misses by a
- * tenth of it. With c, r the instance's centre and radius, shift = (c - o).d / d.d - r / max|d|, where shift max|d| >
- * RAYS_FAR r, else 0: o + shift d is a few radii before the instance. There t is counted from that point; the nearest
- * hit of several instances is the one whose t + shift, rounded, is least.
+ * Rays that start far from an instance are moved along their direction until they are near it, in its object space. The
+ * test's rounding error grows with the distance: at a million times an instance's size, it would report hits that the
+ * ray misses by a tenth of that size. With c, r the instance's centre and radius, shift = (c - o).d / d.d - r / max|d|,
+ * if shift max|d| > RAYS_FAR r, else 0: o + shift d is a few radii in front of the instance. t is then relative to that
+ * point, and the nearest hit of several instances is the one whose rounded t + shift is least.
  *
- * Of several nearest hits at the very same t the lowest instance counts, there the lowest primitive: the answer depends
- * on no tree.
+ * Among nearest hits at exactly the same t, the lowest instance wins, then the lowest primitive, so the answer does not
+ * depend on the tree.
  *
- * Any hit and nearest hit decide by one rule: a triangle is tried where the ray itself meets the box of its leaf,
- * whatever rays travel beside it, and both queries ask the boxes in the same way.
+ * Any hit and nearest hit follow one rule: a triangle is tested if the ray itself meets the box of its leaf, regardless
+ * of the rays beside it, and both queries test boxes in the same way.
  *
- * Rays to lights (occlude, to_lights) pass the triangles of an instance that they see from one side: INSTANCE_PASS_*.
+ * Rays to lights (occlude, to_lights) ignore the triangles of an instance that they see from a given side:
+ * INSTANCE_PASS_*.
  *
- * Work items: as many as hold n_rays when each takes RAYS_PER_ITEM for *_packet, n_rays for all others. A space with
- * nothing to hit (accel_space.n_nodes == 0) is the caller's to leave out.
+ * Work items: for *_packet, enough for n_rays at RAYS_PER_ITEM each; for all others, n_rays. The caller must skip
+ * spaces with nothing to hit (accel_space.n_nodes == 0).
  */
 #pragma once
 
 #include "scene/scene.h"
 #include "kernels/shared.h"
 
-/* What a walk through an instance passes: bits INSTANCE_PASS_*; 0: nothing. */
+/* The sides that a walk through an instance ignores: bits INSTANCE_PASS_*; 0: none. */
 static inline uint32_t rays_passes(uint32_t flags, uint32_t to_lights)
 {
 	return to_lights ? flags & (INSTANCE_PASS_COUNTER | INSTANCE_PASS_CLOCKWISE) : 0u;
@@ -42,27 +43,27 @@ static inline uint32_t rays_side(float determinant)
 	return determinant > 0.0f ? INSTANCE_PASS_COUNTER : INSTANCE_PASS_CLOCKWISE;
 }
 
-/* Rays in a packet, packets of a work item. */
+/* Rays per packet, packets per work item. */
 #define RAYS_PER_PACKET 16u
 #define RAYS_PACKETS 4u
 #define RAYS_PER_ITEM (RAYS_PACKETS * RAYS_PER_PACKET)
 
-/* By how much a weight may leave [0,1]: a ray through an edge that two triangles share must not slip between them. */
+/* How far a weight may be outside [0,1]: a ray through an edge that two triangles share must not slip between them. */
 #define RAYS_EDGE_SLACK 1e-6f
 
 /*
- * A determinant within this share of the largest components of e1, e2 and d, multiplied, is rounding, and so are the
- * weights and t that come of it. Such a triangle is narrower across the ray than single precision can tell.
+ * A determinant within this share of the product of the largest components of e1, e2 and d is rounding error, and so
+ * are the weights and t derived from it. Such a triangle is narrower across the ray than single precision can resolve.
  */
 #define RAYS_FLAT 1.5e-6f
 
 #define RAYS_RANGE 1e38f
 
-/* How much farther than the nearest hit boxes are looked at, as a share of its t. */
+/* How far beyond the nearest hit boxes are still tested, as a share of its t. */
 #define RAYS_END_SLACK 4e-6f
 
-/* From how many radii on a ray is moved. */
+/* Distance, in radii, from which a ray is moved. */
 #define RAYS_FAR 64.0f
 
-/* Entries of a stack over an eight-wide tree: seven siblings a level. */
+/* Stack entries for an eight-wide tree: seven siblings per level. */
 #define RAYS_WIDE_STACK (7 * BVH_MAX_DEPTH + 1)

@@ -1,27 +1,30 @@
 /*
- * occlude_packet, intersect_packet: sixty-four consecutive rays a work item against eight-wide trees, as packets of
- * sixteen that share one stack. Where all rays have one octant, the beam around them first tests eight boxes at a time;
- * the packets then test the boxes that it meets one by one. Where only a few rays of a packet go on, each tests eight
- * boxes at once on its own. See kernels/rays/rays.h.
+ * occlude_packet, intersect_packet: sixty-four consecutive rays per work item against eight-wide trees, as packets of
+ * sixteen that share one stack. If all rays have the same octant, the beam around them first tests eight boxes at a
+ * time; the packets then test the boxes that it meets one by one. If only a few rays of a packet remain, each tests
+ * eight boxes at once on its own. See kernels/rays/rays.h.
  *
- * kernels/README.md lists what was tried on a processor with AVX-512 and left.
+ * kernels/README.md lists what was tried on a processor with AVX-512 and dropped.
  */
 #include "kernels/kernels.h"
 #include "kernels/rays/rays.h"
 #include "kernels/rays/packet.h"
 #include "kernels/rays/wide.h"
 
-/* Rays that go on one by one, against eight boxes at once: less work than all lanes against each box. */
+/*
+ * Number of rays below which each continues alone, against eight boxes at once: less work than all lanes against each
+ * box.
+ */
 #define PACKET_FEW 2
 
-/* What a packet's rays have hit, at their t_max: the nearest so far. Not kept where any hit will do: these rays' t_max
- * is -infinity then. */
+/* The hits of a packet's rays, at their t_max: the nearest so far. Not stored for any-hit queries, where a ray that
+ * hits gets t_max -infinity. */
 struct found {
 	packf b1, b2;
 	packu instance, primitive;
 };
 
-/* One ray of a packet, as kernels/rays/walk.h has it. */
+/* Extract one ray of a packet, as in kernels/rays/walk.h. */
 static inline void take_lane(const struct packet *p, uint lane, struct walk *w)
 {
 #define TAKE(row) w->row = ((const float *)&p->row)[lane]
@@ -34,7 +37,10 @@ static inline void take_lane(const struct packet *p, uint lane, struct walk *w)
 	w->hit.t = ((const float *)&p->t_max)[lane];
 }
 
-/* Lanes of a packet down a subtree one by one. @return those that need no more: any hit will do, and they have it */
+/*
+ * Walk lanes of a packet through a subtree one by one. @return the finished lanes: those of any-hit queries that have a
+ * hit
+ */
 INLINED uint walk_lanes(struct packet *p, struct found *found, int any, uint passes, uint lanes, uint2 start,
                         __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
@@ -85,7 +91,7 @@ static inline uint existing_boxes(__global const struct node8 *node)
 	return lane_bits(vload8(0, node->lo[0]) <= vload8(0, node->hi[0]));
 }
 
-/* Those of some lanes that meet a box. octant -1: there are several. */
+/* The lanes, out of a set, that meet a box. octant -1: there are several. */
 WIDE_VECTORS INLINED ulong lanes_meet(const struct packet *p, int octant, struct planes planes,
                                      __global const struct node8 *node, uint box, ulong lanes)
 {
@@ -102,16 +108,16 @@ WIDE_VECTORS INLINED ulong lanes_meet(const struct packet *p, int octant, struct
 	return meet;
 }
 
-/* A child of a node and the lanes that meet its box, or, where the nearest hit is asked for, that meet the node: the
- * box is asked when the task is popped, as there may be nearer hits by then. */
+/* A child of a node and the lanes that meet its box or, for nearest-hit queries, that meet the node: the box is tested
+ * when the task is popped, as there may be nearer hits by then. */
 struct task {
-	uint2 child; /* a node (y: 0) or a leaf of y blocks; at the top, of y instances */
+	uint2 child; /* a node (y: 0) or a leaf of y blocks; at the top, a leaf of y instances */
 	uint node, box;
 	ulong lanes;
 };
 
-/* Push those of a node's children that `boxes` names and lanes meet: the nearest along a direction last, so that it is
- * popped first; in any order where any hit will do. */
+/* Push the children of a node that are in `boxes` and that lanes meet. The nearest along a direction goes last, so that
+ * it is popped first; any-hit queries use any order. */
 WIDE_VECTORS INLINED uint push_children(struct task *stack, uint depth, const struct packet *p, int any, int octant,
                                         struct planes planes, uint boxes, __global const struct node8 *all, uint index,
                                         ulong lanes, const float *towards)
@@ -142,7 +148,7 @@ WIDE_VECTORS INLINED uint push_children(struct task *stack, uint depth, const st
 	return depth;
 }
 
-/* Where the rays go, all in all. */
+/* Mean direction of the rays. */
 static inline void mean_direction(const struct packet *p, float towards[3])
 {
 	packf x = 0, y = 0, z = 0;
@@ -156,8 +162,8 @@ static inline void mean_direction(const struct packet *p, float towards[3])
 	towards[0] = sum_of(x), towards[1] = sum_of(y), towards[2] = sum_of(z);
 }
 
-/* Packets of which only a few rays are left in a subtree send them through it one by one. @return lanes without these;
- * those that need no more are no longer awake */
+/* Packets with only a few rays left in a subtree walk them through it one by one. @return lanes without these; finished
+ * ones are no longer awake */
 INLINED ulong walk_few(struct packet *p, struct found *found, int any, uint passes, uint2 start, ulong lanes,
                        ulong *awake, __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
@@ -234,7 +240,7 @@ INLINED void walk_blas(struct packet *p, struct found *found, int any, uint pass
 	}
 }
 
-/* How far along each ray its walk through an instance starts. */
+/* Distance along each ray where its walk through an instance starts. */
 static inline packf far_shift(__global const struct instance *instance, const struct packet *p)
 {
 	const packf cx = instance->centre[0] - p->ox, cy = instance->centre[1] - p->oy, cz = instance->centre[2] - p->oz;
@@ -245,7 +251,7 @@ static inline packf far_shift(__global const struct instance *instance, const st
 	return select((packf)(0), shift, (shift * length > RAYS_FAR * instance->radius) & isfinite(shift));
 }
 
-/* Back in eye space with what was hit in an instance, where that is nearer, or as near and of a lower instance. */
+/* Return to eye space with an instance's hits that are nearer, or as near and of a lower instance. */
 static inline void leave_instance(struct packet *eye, struct found *eye_found, const struct packet *p,
                                   const struct found *found, packf shift, uint index)
 {
@@ -260,7 +266,7 @@ static inline void leave_instance(struct packet *eye, struct found *eye_found, c
 	eye_found->primitive = select(eye_found->primitive, found->primitive, nearer);
 }
 
-/* One instance's tree with the lanes of `meets`. */
+/* Walk one instance's tree with the lanes of `meets`. */
 INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any, uint to_lights, ulong meets,
                            uint index, __global const struct instance *instances,
                            __global const struct node8 *all_nodes, __global const struct triangle8 *all_triangles)
@@ -284,7 +290,8 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any,
 		packet_prepare(&p[k]);
 		p[k].t_min = met ? eye[k].t_min - shift[k] : 1;
 		p[k].t_max = met ? eye[k].t_max - shift[k] : -INFINITY;
-		p[k].t_min = select((packf)(NAN), p[k].t_min, packet_in_range(&p[k])); /* others sleep, and do not spoil the beam */
+		p[k].t_min = select((packf)(NAN), p[k].t_min, packet_in_range(&p[k])); /* the others sleep, and do not widen the
+                                                                                * beam */
 		if (any)
 			continue;
 		found[k].primitive = SCENE_NONE;
@@ -332,15 +339,15 @@ INLINED void walk_top(struct packet *eye, struct found *found, int any, uint to_
 	}
 }
 
-/* Rows of four numbers of sixteen rays, which stand together in each: of rays 0 to 3, 4 to 7 and so on. */
+/* Transpose rows of four numbers of sixteen rays, where each row holds rays 0 to 3, 4 to 7 and so on. */
 static inline void turn(float16 a, float16 b, float16 c, float16 d, packf *x, packf *y, packf *z, packf *w)
 {
 	*x = (packf)(a.s048c, b.s048c, c.s048c, d.s048c), *y = (packf)(a.s159d, b.s159d, c.s159d, d.s159d);
 	*z = (packf)(a.s26ae, b.s26ae, c.s26ae, d.s26ae), *w = (packf)(a.s37bf, b.s37bf, c.s37bf, d.s37bf);
 }
 
-/* Rows from sixteen rays; lanes past the end, and rays that hit nothing by definition, sleep. @return a bit for each
- * awake */
+/* Load rows from sixteen rays. Lanes past the end, and rays that hit nothing by definition, sleep. @return a bit for
+ * each awake lane */
 static inline uint load_rays(struct packet *p, __global const struct ray *rays, uint first, uint n)
 {
 	const float8 asleep = (float8)(0, 0, 0, 1, 1, 1, 1, -INFINITY);
@@ -381,7 +388,7 @@ static inline ulong load_packets(struct packet *p, __global const struct ray *ra
 
 	for (uint k = 0; k < RAYS_PACKETS; k++)
 		lanes |= lanes_at(load_rays(&p[k], rays, first + k * RAYS_PER_PACKET, n), k);
-	for (uint i = 0; i < RAYS_PER_ITEM; i += 2) /* the next item's; two fill a line */
+	for (uint i = 0; i < RAYS_PER_ITEM; i += 2) /* prefetch the next item's rays; two fill a cache line */
 		PREFETCH(&rays[first + RAYS_PER_ITEM + i]);
 	return lanes;
 }

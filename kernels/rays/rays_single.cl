@@ -1,11 +1,11 @@
 /*
- * occlude_binary, intersect_binary, occlude_compressed, intersect_compressed: one ray a work item and nothing wider
- * than a number, for devices that run many work items in step (GPUs). See kernels/rays/rays.h.
+ * occlude_binary, intersect_binary, occlude_compressed, intersect_compressed: one ray per work item in scalar code, for
+ * devices that run many work items in lockstep (GPUs). See kernels/rays/rays.h.
  *
  * Both walk the binary top level. Below it, *_binary goes down the binary tree to a leaf, then through its triangles
  * ("while-while", Aila and Laine 2009, "Understanding the efficiency of ray traversal on GPUs"); *_compressed walks
  * eight-wide nodes of 80 bytes in the order of the ray's octant (Ylitie, Karras and Laine 2017, section 4). Stacks are
- * private: of the room they have for the deepest tree a ray touches only the few entries that it needs.
+ * in private memory. They have room for the deepest tree, but a ray touches only the few entries that it needs.
  */
 #include "kernels/common.h"
 #include "kernels/kernels.h"
@@ -13,7 +13,7 @@
 #include "kernels/rays/rays.h"
 #include "kernels/rays/walk.h"
 
-/* Moeller and Trumbore; of equally near hits that of the lowest primitive stays. */
+/* Moeller and Trumbore; among equally near hits, the lowest primitive wins. */
 static inline void try_single(struct walk *w, __global const struct triangle *triangle, uint instance, uint passes)
 {
 	const float e1x = triangle->e1[0], e1y = triangle->e1[1], e1z = triangle->e1[2];
@@ -43,7 +43,7 @@ static inline void try_single(struct walk *w, __global const struct triangle *tr
 
 /* --- Binary trees ------------------------------------------------------------------------------------------------ */
 
-/* Whether the ray meets a box, and where it enters. An empty one has lo > hi. */
+/* Test whether the ray meets a box, and where it enters. An empty box has lo > hi. */
 static inline int meets_box(const struct walk *w, struct vec3 lo, struct vec3 hi, float *enter)
 {
 	const float near_x = fma(w->ix < 0 ? hi.x : lo.x, w->ix, w->near_x),
@@ -57,7 +57,7 @@ static inline int meets_box(const struct walk *w, struct vec3 lo, struct vec3 hi
 	return lo.x <= hi.x && *enter <= fmin(fmin(far_x, far_y), fmin(far_z, walk_end(w)));
 }
 
-/* The next subtree that is not behind what was hit meanwhile. @return 0: there is none */
+/* Pop the next subtree that is not behind the hit found meanwhile. @return 0: there is none */
 static inline int pop(const struct walk *w, const struct entry *stack, uint *depth, struct entry *entry)
 {
 	do {
@@ -68,7 +68,7 @@ static inline int pop(const struct walk *w, const struct entry *stack, uint *dep
 	return 1;
 }
 
-/* On to the next leaf, the nearer child first. @return 0: there is none */
+/* Go to the next leaf, nearer child first. @return 0: there is none */
 static inline int next_leaf(const struct walk *w, __global const struct node2 *nodes, struct entry *stack, uint *depth,
                      struct entry *entry)
 {
@@ -122,12 +122,13 @@ static inline void walk_compressed(struct walk *w, uint index, int any, uint pas
                                    __global const struct node8c *nodes, __global const struct triangle *triangles)
 {
 	const uint octant = (w->dx < 0 ? 0u : 1u) | (w->dy < 0 ? 0u : 2u) | (w->dz < 0 ? 0u : 4u);
-	uint2 stack[NODE8C_MAX_DEPTH]; /* nodes that were met with others: where they begin, what meet_compressed says */
+	uint2 stack[NODE8C_MAX_DEPTH]; /* groups of sibling nodes to visit: index of the first, and the result of
+                                    * meet_compressed */
 	uint depth = 0, child = 0;
 
 	for (;;) {
 		uint bits, near, slot;
-		uint2 first, group; /* first: the node's children, x nodes, y triangles */
+		uint2 first, group; /* first: the node's first children, x nodes, y triangles */
 
 		group.y = meet_compressed(w, octant, &nodes[child], &bits, &first);
 		group.x = first.x;
@@ -154,9 +155,9 @@ static inline void walk_compressed(struct walk *w, uint index, int any, uint pas
 /* --- Rays -------------------------------------------------------------------------------------------------------- */
 
 /*
- * What trees are made of is known where this is compiled into a kernel, so that each has stacks of its own kind alone.
- * While an instance is walked nothing is kept of the ray in eye space but its hit: the rest is read and computed again,
- * which costs less than the registers.
+ * The type of the trees is a constant in each kernel, so the kernel only has stacks of its own type. While an instance
+ * is walked, only the hit of the eye-space ray is kept; the rest is read and computed again, which costs less than the
+ * registers.
  */
 INLINED struct hit walk_ray(__global const struct ray *ray, int any, uint to_lights, int is_compressed,
                             __global const struct node2 *top, __global const uint *instance_list,

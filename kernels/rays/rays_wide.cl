@@ -1,5 +1,5 @@
 /*
- * occlude_wide, intersect_wide: one ray a work item against eight boxes or eight triangles at once. See
+ * occlude_wide, intersect_wide: one ray per work item against eight boxes or eight triangles at once. See
  * kernels/rays/rays.h.
  */
 #include "kernels/kernels.h"

@@ -1,6 +1,6 @@
 /*
- * One ray on its way through trees, whatever these are made of: into an instance's object space and back. OpenCL C
- * only; included by the kernels that trace one ray a work item.
+ * One ray traversing trees of any type: into an instance's object space and back. OpenCL C only; included by the
+ * kernels that trace one ray per work item.
  */
 #pragma once
 
@@ -8,25 +8,25 @@
 #include "kernels/shared.h"
 #include "kernels/rays/rays.h"
 
-/* A ray in the space of the tree it walks; boxes as in kernels/rays/packet.h. */
+/* A ray in the space of the tree that it walks; boxes are tested as in kernels/rays/packet.h. */
 struct walk {
 	float ox, oy, oz, dx, dy, dz;
 	float ix, iy, iz, far_ix, far_iy, far_iz, near_x, near_y, near_z, far_x, far_y, far_z;
-	uint row_x, row_y, row_z; /* the float of a node8 where the planes met first begin */
+	uint row_x, row_y, row_z; /* offsets in floats in a node8 of the rows of near planes */
 	float t_min;
-	struct hit hit; /* hit.t: the ray's end so far */
+	struct hit hit; /* hit.t: end of the ray so far */
 };
 
 /*
- * Boxes count up to here, a little beyond the nearest hit so far: a triangle's t may be rounded to before its box.
- * Without that slack the tree would decide between two nearly equal hits.
+ * Boxes are tested up to here, slightly beyond the nearest hit so far, since rounding can put a triangle's t in front
+ * of its box. Without that slack, the tree would decide between two nearly equal hits.
  */
 static inline float walk_end(const struct walk *w)
 {
 	return fma(fabs(w->hit.t), RAYS_END_SLACK, w->hit.t);
 }
 
-/* A subtree to be walked. */
+/* A subtree to visit. */
 struct entry {
 	float enter;
 	uint child, count;
@@ -59,13 +59,13 @@ static inline void prepare(struct walk *w)
 	find_rows(w);
 }
 
-/* Whether boxes can be told apart by their distances along the ray. */
+/* Test whether boxes can be distinguished by their distances along the ray. */
 static inline int in_range(const struct walk *w)
 {
 	return fabs(w->ox * w->ix) < RAYS_RANGE && fabs(w->oy * w->iy) < RAYS_RANGE && fabs(w->oz * w->iz) < RAYS_RANGE;
 }
 
-/* A ray in eye space that has hit nothing. @return 0 where it hits nothing by definition */
+/* A ray in eye space without a hit. @return 0 if it hits nothing by definition */
 static inline int walk_start(struct walk *w, __global const struct ray *ray)
 {
 	w->ox = ray->o[0], w->oy = ray->o[1], w->oz = ray->o[2];
@@ -81,7 +81,7 @@ static inline int walk_start(struct walk *w, __global const struct ray *ray)
 	return in_range(w);
 }
 
-/* How far along the ray its walk through an instance starts. */
+/* Distance along the ray where its walk through an instance starts. */
 static inline float walk_shift(__global const struct instance *instance, const struct walk *w)
 {
 	const float cx = instance->centre[0] - w->ox, cy = instance->centre[1] - w->oy, cz = instance->centre[2] - w->oz;
@@ -92,7 +92,7 @@ static inline float walk_shift(__global const struct instance *instance, const s
 	return shift * length > RAYS_FAR * instance->radius && isfinite(shift) ? shift : 0;
 }
 
-/* The ray in an instance's object space. @return by how much it was moved along itself */
+/* The ray in an instance's object space. @return how far it was moved along its direction */
 static inline float walk_enter(struct walk *w, const struct walk *eye, __global const struct instance *instance)
 {
 	__global const float *m = instance->obj_from_eye;
@@ -118,7 +118,7 @@ static inline float walk_enter(struct walk *w, const struct walk *eye, __global 
 	return shift;
 }
 
-/* Back in eye space with what was hit in an instance, where that is nearer, or as near and of a lower instance. */
+/* Return to eye space with an instance's hit if it is nearer, or as near and of a lower instance. */
 static inline void walk_leave(struct walk *eye, struct walk *w, float shift)
 {
 	w->hit.t += shift;

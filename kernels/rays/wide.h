@@ -9,7 +9,7 @@
 #include "kernels/rays/lanes.h"
 #include "kernels/rays/walk.h"
 
-/* Where the ray enters the eight boxes, and which it meets. */
+/* Where the ray enters the eight boxes. @return a bit for each box that it meets */
 static inline uint meet_boxes(const struct walk *w, __global const struct node8 *node, float8 *enter)
 {
 	__global const float *rows = (__global const float *)node;
@@ -25,7 +25,10 @@ static inline uint meet_boxes(const struct walk *w, __global const struct node8 
 	return lane_bits(first <= lanes_min(lanes_min(far_x, far_y), lanes_min(far_z, walk_end(w))));
 }
 
-/* Push what the ray meets, farthest first, so that the nearest is popped next; in any order where any hit will do. */
+/*
+ * Push the children that the ray meets, farthest first, so that the nearest is popped next; any-hit queries use any
+ * order.
+ */
 static inline uint push_boxes(struct entry *stack, uint depth, uint bits, const float8 *enter, int any,
                        __global const struct node8 *node)
 {
@@ -48,8 +51,8 @@ static inline uint push_boxes(struct entry *stack, uint depth, uint bits, const 
 	return depth;
 }
 
-/* Moeller and Trumbore on eight triangles; the nearest hit, the lowest primitive of equals, goes into w->hit. passes:
- * where any will do */
+/* Moeller and Trumbore on eight triangles. w->hit receives the nearest hit or, among equals, that of the lowest
+ * primitive. passes: as rays_passes, for any-hit queries */
 static inline void try_block(struct walk *w, __global const struct triangle8 *block, uint instance, int any,
                              uint passes)
 {
@@ -92,7 +95,7 @@ static inline void try_block(struct walk *w, __global const struct triangle8 *bl
 	}
 }
 
-/* From a node (y: 0) or a leaf of y blocks on down. */
+/* Walk down from a node (y: 0) or a leaf of y blocks. */
 static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int any, uint passes,
                                 __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
@@ -108,7 +111,7 @@ static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int 
 			float8 enter;
 			const uint bits = meet_boxes(w, node, &enter);
 
-			if (bits && (bits & (bits - 1)) == 0) { /* the only one: on with it, past the stack */
+			if (bits && (bits & (bits - 1)) == 0) { /* a single one: continue with it, bypassing the stack */
 				const uint lane = popcount(bits - 1);
 
 				entry.child = node->child[lane];

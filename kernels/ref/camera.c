@@ -1,4 +1,7 @@
-/* C twins of camera_packet, camera_wide and camera_compressed: one pixel at a time, as kernels/camera/camera.h says. */
+/*
+ * C twins of camera_packet, camera_wide and camera_compressed: one pixel at a time, as specified in
+ * kernels/camera/camera.h.
+ */
 #include "kernels/camera/camera.h"
 
 #include <math.h>
@@ -8,7 +11,7 @@
 #include "kernels/kernels.h"
 #include "kernels/rays/rays.h"
 
-/* What the three kernels have in common. */
+/* Arguments that the three kernels share. */
 struct args {
 	const struct view *view;
 	uint32_t width, height, mode, first_pixel;
@@ -16,9 +19,9 @@ struct args {
 	const struct instance *instances;
 	const struct node2 *top;
 	const uint32_t *instance_list;
-	/* The trees of one kind and their triangles; the other kinds are NULL. */
+	/* The trees of one type and their triangles; the other types are NULL. */
 	const struct node2 *nodes;
-	const struct triangle *triangles; /* of compressed, too */
+	const struct triangle *triangles; /* for compressed trees, too */
 	const struct node8c *compressed;
 	const struct node8 *rows;
 	const struct face8 *faces;
@@ -29,20 +32,20 @@ struct args {
 	uint32_t *counts;
 };
 
-/* One pixel on its way: its ray in eye space, and what was found. */
+/* State of a pixel: its ray in eye space, and its fragments. */
 struct pixel {
 	const struct args *args;
 	int32_t x, y;
 	float o[3], d[3]; /* point(t) = o + t d; t = 0 is the near plane */
-	float d_scale; /* what d was divided by */
-	float near_w, far_w; /* w of the unprojected near and far point */
+	float d_scale; /* factor that d was divided by */
+	float near_w, far_w; /* w of the unprojected near and far points */
 	float t_max;
 	uint32_t best_depth; /* NEAREST: in steps of 2^-24 */
 	struct fragment *fragments;
 	uint32_t count;
 };
 
-/* All but the trees and their triangles. */
+/* All arguments except the trees and their triangles. */
 #define COMMON_ARGS(a) \
 	.view = (a)->pass.views + (a)->pass.view_index, .width = (a)->pass.width, .height = (a)->pass.height, \
 	.mode = (a)->pass.mode, \
@@ -51,7 +54,7 @@ struct pixel {
 	.clip = (const float (*)[4])(a)->pass.clip, .after = (a)->pass.after, .fragments = (a)->pass.fragments, \
 	.counts = (a)->pass.counts
 
-/* Where a pixel stands in the buffers. */
+/* Index of a pixel in the buffers. */
 static size_t place_of(const struct args *args, int32_t x, int32_t y)
 {
 	return (uint32_t)y * args->width + (uint32_t)x - args->first_pixel;
@@ -65,9 +68,9 @@ static uint32_t quantise_depth(float depth)
 }
 
 /*
- * End the ray behind depth d. With u the share of the depth range, the near point N and the far point F (homogeneous,
- * N + l F sweeps the ray and l = u / (1 - u) is at share u): t = u / (N_w ((1 - u) N_w + u F_w)), in units of
- * F N_w - N F_w. A little is added for rounding and for equal depths.
+ * End the ray behind depth d. Let u be the share of the depth range, N the near point and F the far point (homogeneous:
+ * N + l F sweeps the ray, with l = u / (1 - u) at share u). Then t = u / (N_w ((1 - u) N_w + u F_w)), in units of F N_w
+ * - N F_w. A small margin is added for rounding and for equal depths.
  */
 static void shorten(struct pixel *p, float depth)
 {
@@ -109,7 +112,7 @@ static void keep_in_column(struct pixel *p, const struct fragment *f)
 		return;
 	while (place > 0 && p->fragments[place - 1].order > f->order)
 		place--;
-	/* A triangle may lie in several leaves. */
+	/* A triangle may be in several leaves. */
 	if (place == CAMERA_COLUMN_MAX || (place > 0 && p->fragments[place - 1].order == f->order))
 		return;
 	if (p->count < CAMERA_COLUMN_MAX)
@@ -129,8 +132,8 @@ static void keep(struct pixel *p, const struct fragment *f)
 
 /* --- coverage ---------------------------------------------------------------------------------------------------- */
 
-/* Twice the signed area, in 1/65536 square pixels, of a -> b -> where the view looks: positive on the left of a ->
- * b. */
+/* Twice the signed area, in 1/65536 square pixels, of the triangle a, b and the sample position: positive to the left
+ * of a -> b. */
 static int64_t edge(struct window_vertex a, struct window_vertex b, const struct pixel *p)
 {
 	const struct clip_spot at = clip_spot(p->args->view, p->x, p->y);
@@ -138,13 +141,16 @@ static int64_t edge(struct window_vertex a, struct window_vertex b, const struct
 	return ((int64_t)b.x - a.x) * (at.y - a.y) - ((int64_t)b.y - a.y) * (at.x - a.x);
 }
 
-/* 1 where centres on the edge a -> b of a counter-clockwise triangle belong to it: it lies on its right, or above. */
+/*
+ * 1 if centres on the edge a -> b of a counter-clockwise triangle belong to it: the triangle is to the right of or
+ * above the edge.
+ */
 static int owns_edge(struct window_vertex a, struct window_vertex b)
 {
 	return b.y < a.y || (b.y == a.y && b.x > a.x);
 }
 
-/* 1 where the centre is on the inner side of a -> b of a triangle that turns with sign (1: counter-clockwise, or
+/* 1 if the centre is on the inner side of a -> b, for a triangle of the given orientation (1: counter-clockwise, or
  * -1). */
 static int inside_edge(struct window_vertex a, struct window_vertex b, int sign, const struct pixel *p)
 {
@@ -160,7 +166,7 @@ static int culled(uint32_t flags, int counter_clockwise)
 	return (flags & (front ? INSTANCE_CULL_FRONT : INSTANCE_CULL_BACK)) != 0;
 }
 
-/* Where the view looks in the pixel, pixels. */
+/* Sample position in the pixel, in pixels. */
 static float spot(const struct pixel *p, int axis)
 {
 	return (float)(axis ? p->y : p->x) + 0.5f + (float)p->args->view->sample[axis] / 256;
@@ -202,7 +208,7 @@ static int cover_placed(const struct pixel *p, uint32_t flags, const struct wind
 	return 1;
 }
 
-/* A vertex lies outside of the view volume: ask the clipped triangle. c: clip coordinates. */
+/* A vertex lies outside the view volume: test the clipped triangle. c: clip coordinates. */
 static int cover_clipped(const struct pixel *p, uint32_t flags, const float *const c[3], struct fragment *f)
 {
 	struct clip_polygon polygon;
@@ -241,7 +247,7 @@ static void try_triangle(struct pixel *p, uint32_t instance_index, uint32_t prim
 		keep(p, &f);
 }
 
-/* A leaf of the binary or of the compressed tree; triangle_first: of the instance. */
+/* A leaf of the binary or the compressed tree; triangle_first: of the instance. */
 static void try_triangles(struct pixel *p, uint32_t instance_index, uint32_t triangle_first, uint32_t first,
                           uint32_t count)
 {
@@ -251,7 +257,7 @@ static void try_triangles(struct pixel *p, uint32_t instance_index, uint32_t tri
 		try_triangle(p, instance_index, triangles[i].primitive, triangles[i].vertex);
 }
 
-/* A leaf of the tree in rows. */
+/* A leaf of the eight-wide tree. */
 static void try_faces(struct pixel *p, uint32_t instance_index, uint32_t first, uint32_t count)
 {
 	const struct face8 *faces = p->args->faces + p->args->instances[instance_index].triangle8_first + first;
@@ -264,7 +270,7 @@ static void try_faces(struct pixel *p, uint32_t instance_index, uint32_t first, 
 
 /* --- traversal --------------------------------------------------------------------------------------------------- */
 
-/* Share of a ray inside a box widened by pad; 0: none. */
+/* The segment of a ray inside a box widened by pad; 0: none. */
 static int hits_box(const float o[3], const float inverse[3], const float lo[3], const float hi[3], float pad,
                     float t_max, float *t_enter)
 {
@@ -279,11 +285,11 @@ static int hits_box(const float o[3], const float inverse[3], const float lo[3],
 		leave = fminf(leave, fmaxf(t0, t1));
 	}
 	*t_enter = enter;
-	/* A little more, for rounding in t. */
+	/* A little slack for rounding in t. */
 	return enter <= leave * 1.00001f;
 }
 
-/* 1/d, finite: a ray that runs along a plane is moved off it by next to nothing. */
+/* 1/d, finite: a ray parallel to a plane is tilted off it by a negligible amount. */
 static void invert(const float d[3], float inverse[3])
 {
 	for (int a = 0; a < 3; a++)
@@ -322,7 +328,7 @@ static void walk_binary(struct pixel *p, uint32_t instance_index, const float o[
 	}
 }
 
-/* Is a box on the way? inverse NULL: the pixel centre is a point, under which boxes are looked for in x and y. */
+/* 1 if the ray meets a box. inverse NULL: the sample position is a point, and boxes are tested in x and y. */
 static int meets_box(const struct pixel *p, const float o[3], const float *inverse, const float lo[3],
                      const float hi[3], float pad)
 {
@@ -420,7 +426,7 @@ static void walk_top(struct pixel *p)
 	}
 }
 
-/* Geometry in window space: where the view looks is a point. */
+/* Geometry in window space is tested at the sample position, as a point. */
 static void walk_screen(struct pixel *p, uint32_t instance_index)
 {
 	const struct args *a = p->args;
@@ -446,7 +452,7 @@ static void walk_screen(struct pixel *p, uint32_t instance_index)
 	}
 }
 
-/* The pixel's ray; 0 where the view has none (a projection without an inverse). */
+/* The pixel's ray; 0 if the view has none (its projection has no inverse). */
 static int make_ray(struct pixel *p)
 {
 	const struct view *view = p->args->view;

@@ -10,7 +10,7 @@ void dome_find_packet_c(const struct dome_find_arguments *a, size_t first, size_
 	dome_find_c(a, first * SHADE_PACKET, last * SHADE_PACKET);
 }
 
-/* The fragments of a pixel of the band. */
+/* Light the fragments of a pixel of the band. */
 static void light_pixel(const struct dome_light_arguments *a, uint32_t x, uint32_t y)
 {
 	uint32_t count;

@@ -1,4 +1,4 @@
-/* C twins of kernels/frame/hook.cl, where no hook is there. */
+/* C twins of kernels/frame/hook.cl, without hooks. */
 #include "kernels/frame/hook.h"
 #include "kernels/frame/hook_object.h"
 

@@ -1,6 +1,6 @@
 /*
- * The kernels of a hook for the reference device, where clang is there: OpenCL C compiled for this processor, behind
- * host_builtins.h and what the hook declares, in front of its text (tracer/hook/host.h). host_NAME is a kernel_twin.
+ * A hook's kernels for the reference device, if clang is available: OpenCL C compiled for this processor, after
+ * host_builtins.h and the hook's declarations, before its text (tracer/hook/host.h). host_NAME is a kernel_twin.
  */
 #pragma once
 

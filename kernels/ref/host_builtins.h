@@ -1,7 +1,7 @@
 /*
- * OpenCL C 1.2 for a processor that clang compiles C for (-cl-no-stdinc): types and built-in functions that kernels and
- * hooks use (hook_host.h), and how tests/check/host_cl.c starts kernels. It promises no more than the specification.
- * HOST_OTHERWISE picks another answer wherever the specification leaves one open.
+ * OpenCL C 1.2 on processors that clang compiles C for (-cl-no-stdinc): the types and built-in functions that kernels
+ * and hooks use (hook_host.h), and how tests/check/host_cl.c starts kernels. It promises no more than the
+ * specification. HOST_OTHERWISE selects a different answer wherever the specification allows several.
  */
 #ifndef KERNELS_REF_HOST_BUILTINS_H
 #define KERNELS_REF_HOST_BUILTINS_H
@@ -48,7 +48,7 @@ float sqrtf(float), floorf(float), ceilf(float), rintf(float), powf(float, float
 ulong host_item(void); /* host_cl.c */
 
 #ifdef HOST_OTHERWISE
-/* A result that may be off by some units in the last place is. */
+/* Changes a result whose precision is only guaranteed to some units in the last place. */
 HOST_OVER float host_off(float x)
 {
 	return x * 1.00000024f;
@@ -77,7 +77,10 @@ HOST_OVER float copysign(float x, float y)
 	return __builtin_copysignf(x, y);
 }
 
-/* A NaN gives the other number. Which zero is less is open; so is what min() and max() do with a NaN. */
+/*
+ * With one NaN, the result is the other number. The specification leaves open which zero is smaller, and what min() and
+ * max() do with a NaN.
+ */
 #ifdef HOST_OTHERWISE
 HOST_OVER float fmin(float x, float y)
 {
@@ -252,7 +255,7 @@ HOST_OVER uint clz(uint x)
 	HOST_OVER T##n convert_float##n(long##n x) HOST_LANES(T, n, (float)x[i])
 HOST_WIDTHS(HOST_FLOATS, float)
 
-/* Numbers of any kind. */
+/* Vectors of any number type. */
 #define HOST_NUMBERS(T, n) \
 	HOST_OVER T##n min(T##n x, T##n y) HOST_LANES(T, n, min(x[i], y[i])) \
 	HOST_OVER T##n max(T##n x, T##n y) HOST_LANES(T, n, max(x[i], y[i])) \
@@ -471,8 +474,8 @@ HOST_OVER float4 cross(float4 x, float4 y)
 
 /* --- Starting kernels -------------------------------------------------------------------------------------------- */
 
-/* host_run_NAME(arguments, first, last): work items first .. last - 1, the last one first. An argument is where its
- * value stands. */
+/* host_run_NAME(arguments, first, last): runs work items first .. last - 1, the last one first. An argument is the
+ * address of its value. */
 #define HOST_BUFFER(element, name) \
 	__global element_##element *host_of_##name = (__global element_##element *)*(ulong *)*host_arguments++;
 #define HOST_VALUE(element, name) element_##element host_of_##name = *(element_##element *)*host_arguments++;

@@ -1,5 +1,5 @@
-/* C twins of kernels/frame/plain.cl, plain_single.cl and layered.cl: a pixel after the other through the steps that
- * frames which are not plain take. */
+/* C twins of kernels/frame/plain.cl, plain_single.cl and layered.cl: each pixel in turn goes through the steps of
+ * frames that are not plain. */
 #include "kernels/frame/plain.h"
 
 #include <string.h>
@@ -18,7 +18,7 @@ static void compose_pixel(const struct plain_arguments *a, uint32_t x, uint32_t 
 	compose_one(&one, pixel, 0, (a->request.height - 1 - y) * a->width + x);
 }
 
-/* Whether a program has a say in a fragment's colour. */
+/* Test whether a program affects a fragment's colour. */
 static int is_by_program(const struct shade_arguments *s, struct fragment f)
 {
 	const struct geometry *g = &s->tables.geometries[f.instance];
@@ -26,7 +26,7 @@ static int is_by_program(const struct shade_arguments *s, struct fragment f)
 	return stage_is_by_program(s, &s->tables.materials[g->material], g->flags);
 }
 
-/* A fragment as fixed function has it. s: as of do_pixel */
+/* A fragment shaded by fixed function. s: as in do_pixel */
 static void shade_fixed(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
                         uint32_t item)
 {
@@ -39,7 +39,7 @@ static void shade_fixed(const struct plain_arguments *a, const struct shade_argu
 	shade_item(s, item, 0, &kept);
 }
 
-/* A fragment as it is shaded, to its pixel. */
+/* Draw a shaded fragment to its pixel. */
 static void draw_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, uint32_t item,
                        struct frame_pixel *pixel)
 {
@@ -49,7 +49,7 @@ static void draw_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, 
 	           stage_draw(&a->tables, f.instance, f.primitive), pixel, a->bits);
 }
 
-/* s: with visibility where lights have been asked */
+/* s: with visibility once lights have been queried */
 static void do_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
                      uint32_t item)
 {
@@ -64,7 +64,7 @@ static void do_pixel(const struct plain_arguments *a, const struct shade_argumen
 	if (x >= a->width || y >= a->request.height || (s->n_slots && f.order == SCENE_NONE && !is_in_dome))
 		return;
 	if (f.order != SCENE_NONE) {
-		if (!is_by_program(s, f)) /* else plain_program has */
+		if (!is_by_program(s, f)) /* otherwise plain_program has shaded it */
 			shade_fixed(a, s, x, y, item);
 		for (uint32_t slot = 0; slot < a->n_slots && !s->n_slots; slot++)
 			shadow_ray_item(&rays, slot * a->n + item, 0, &shadow_kept);
@@ -75,7 +75,7 @@ static void do_pixel(const struct plain_arguments *a, const struct shade_argumen
 	compose_pixel(a, x, y, &pixel);
 }
 
-/* What plain_program leaves for do_pixel. */
+/* Computes what plain_program leaves for do_pixel. */
 static void run_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
                       uint32_t item)
 {
@@ -88,7 +88,7 @@ static void run_pixel(const struct plain_arguments *a, const struct shade_argume
 	program_item(s, item, 0, &kept);
 }
 
-/* What plain_dome leaves for it. */
+/* Computes what plain_dome leaves for do_pixel. */
 static void look_from_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
                             uint32_t item)
 {
@@ -113,7 +113,7 @@ static void look_from_pixel(const struct plain_arguments *a, const struct shade_
 	dome_find_item(&d, item);
 }
 
-/* Of the pixels of a block, the most fragments that one has in a look. x, y: a pixel of it */
+/* The largest number of fragments of any pixel of a block in a look. x, y: a pixel of the block */
 static uint32_t most_of_block(const struct plain_arguments *a, uint32_t look, uint32_t x, uint32_t y)
 {
 	const uint32_t *counts = a->layers.counts + plain_look_first(a->layers.columns, look, a->width * a->request.height);
@@ -126,7 +126,7 @@ static uint32_t most_of_block(const struct plain_arguments *a, uint32_t look, ui
 	return most;
 }
 
-/* Where a fragment that light leaves stands in the list; SCENE_NONE: light leaves it not. */
+/* Index in the list of a fragment that light leaves; SCENE_NONE: light does not leave it. */
 static uint32_t place_in_list(const struct plain_arguments *a, uint32_t item)
 {
 	const uint32_t leaving = a->layers.mirrors ? a->layers.leaving[item / PLAIN_WIDTH] : 0;
@@ -140,7 +140,7 @@ static uint32_t place_in_list(const struct plain_arguments *a, uint32_t item)
 	return place;
 }
 
-/* A fragment as it is shaded, into that list; or what its paths found out of it. */
+/* Add a shaded fragment to that list, or take from it what its paths found. */
 static void follow(const struct plain_arguments *a, uint32_t step, uint32_t item)
 {
 	const uint32_t place = step == PLAIN_FIRST ? SCENE_NONE : place_in_list(a, item);
@@ -157,7 +157,7 @@ static void follow(const struct plain_arguments *a, uint32_t step, uint32_t item
 	a->layers.list_shaded[place] = a->shaded[item];
 }
 
-/* A fragment of a look: its colour, its rays, and through the per-fragment operations. */
+/* Draw a fragment of a look: its colour, its rays, and the per-fragment operations. */
 static void draw_fragment(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t step,
                           uint32_t item, int asks, struct frame_pixel *pixel)
 {
@@ -178,7 +178,7 @@ static void draw_fragment(const struct plain_arguments *a, const struct shade_ar
 		a->layers.leaving[item / PLAIN_WIDTH] |= 1u << item % PLAIN_WIDTH;
 }
 
-/* A pixel as the last round left it, or as it was cleared. */
+/* A pixel as the last round left it, or with the clear values. */
 static struct frame_pixel begin_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y)
 {
 	struct frame_pixel pixel = *a->cleared;
@@ -190,7 +190,7 @@ static struct frame_pixel begin_pixel(const struct plain_arguments *a, uint32_t 
 	return pixel;
 }
 
-/* Keep it for the next one, or compose it and say whether its colour is known. */
+/* Keep a pixel for the next round, or compose it and record whether its colour is known. */
 static void end_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, const struct frame_pixel *pixel)
 {
 	uint32_t *unknown = &a->layers.unknown[y * plain_columns(a->width) + x / PLAIN_WIDTH];
@@ -205,7 +205,9 @@ static void end_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, c
 
 _Static_assert(sizeof(struct frame_pixel) == PLAIN_KEPT * sizeof(float), "what is kept of a pixel");
 
-/* Clears of depth before a look, from number `next` on. @return the number of the first that is left */
+/*
+ * Apply the depth clears before a look, starting with number `next`. @return the number of the first clear that remains
+ */
 static uint32_t clear_before(const struct plain_arguments *a, uint32_t look, uint32_t next, uint32_t x, uint32_t y,
                              struct frame_pixel *pixel)
 {
@@ -220,7 +222,7 @@ static uint32_t clear_before(const struct plain_arguments *a, uint32_t look, uin
 	return next;
 }
 
-/* do_pixel where there are several looks. item: its place in the block's first layer */
+/* do_pixel for several looks. item: its place in the block's first layer */
 static void draw_layers(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t step, uint32_t x,
                         uint32_t y, uint32_t item)
 {
@@ -275,7 +277,7 @@ static void draw_layers_mirror(const struct plain_arguments *a, const struct sha
 	draw_layers(a, s, PLAIN_MIRROR, x, y, item);
 }
 
-/* The steps of do_pixel, each by itself, of fragments without programs. */
+/* The separate steps of do_pixel, for fragments without programs. */
 static void color_pixel(const struct plain_arguments *a, const struct shade_arguments *s, uint32_t x, uint32_t y,
                         uint32_t item)
 {
@@ -297,7 +299,7 @@ static void show_pixel(const struct plain_arguments *a, const struct shade_argum
 
 typedef void one_pixel(const struct plain_arguments *, const struct shade_arguments *, uint32_t, uint32_t, uint32_t);
 
-/* Each pixel of blocks first .. last-1 by one of those above. */
+/* Process each pixel of blocks first .. last-1 with one of the functions above. */
 static void do_blocks(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last, one_pixel *one)
 {
 	const struct shade_arguments s = plain_shading(a, n_slots);
@@ -311,7 +313,7 @@ static void do_blocks(const struct plain_arguments *a, uint32_t n_slots, size_t 
 		}
 }
 
-/* Pixels first .. last-1 by one of the steps; each has the place of its number. */
+/* Process pixels first .. last-1 with one of the steps; a pixel's place is its number. */
 static void do_pixels(const struct plain_arguments *a, uint32_t n_slots, size_t first, size_t last, one_pixel *one)
 {
 	const struct shade_arguments s = plain_shading(a, n_slots);
@@ -365,7 +367,7 @@ void plain_show_dimmed_c(const struct plain_arguments *a, size_t first, size_t l
 	do_pixels(a, a->n_slots, first, last, show_pixel);
 }
 
-/* A pixel from GL's frame buffer. */
+/* Convert a pixel from GL's frame buffer. */
 static struct frame_pixel start_pixel(const struct layered_start_arguments *a, uint32_t i)
 {
 	struct frame_pixel p = { .id = 0 };
@@ -391,7 +393,7 @@ void layered_start_c(const struct layered_start_arguments *a, size_t first, size
 	}
 }
 
-/* A pixel as GL's frame buffer rounds it. @return 1: its colour is not known */
+/* A pixel, rounded as in GL's frame buffer. @return 1: its colour is not known */
 static uint32_t picture_pixel(const struct layered_picture_arguments *a, uint32_t x, uint32_t y)
 {
 	const uint32_t i = y * a->width + x;
@@ -442,7 +444,7 @@ void plain_dome_c(const struct plain_arguments *a, size_t first, size_t last)
 	do_blocks(a, 0, first, last, look_from_pixel);
 }
 
-/* The rectangle that two have in common; it may be empty. */
+/* The intersection of two rectangles; it may be empty. */
 static struct camera_rectangle both_of(struct camera_rectangle a, struct camera_rectangle b)
 {
 	struct camera_rectangle r = { a.x0 > b.x0 ? a.x0 : b.x0, a.y0 > b.y0 ? a.y0 : b.y0, a.x1 < b.x1 ? a.x1 : b.x1,

@@ -9,7 +9,7 @@ void program_c(const struct shade_arguments *a, size_t first, size_t last)
 		program_item(a, (uint32_t)i, 0, &kept);
 }
 
-/* Each fragment on its own: what neighbours share must not show. */
+/* Each fragment is processed alone, so that caching between neighbours must not be visible. */
 void program_packet_c(const struct shade_arguments *a, size_t first, size_t last)
 {
 	program_c(a, first * SHADE_PACKET, last * SHADE_PACKET);

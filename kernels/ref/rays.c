@@ -1,4 +1,4 @@
-/* C twins of the occlude and intersect kernels: one ray at a time, as kernels/rays/rays.h says. */
+/* C twins of the occlude and intersect kernels: one ray at a time, as specified in kernels/rays/rays.h. */
 #include "kernels/rays/rays.h"
 
 #include <math.h>
@@ -6,10 +6,10 @@
 #include "kernels/kernels.h"
 #include "kernels/rays/compressed.h"
 
-/* What trees are made of. */
+/* Type of the trees' nodes. */
 enum tree { TREE_ROWS, TREE_BINARY, TREE_COMPRESSED };
 
-/* What all of the kernels have in common. */
+/* Arguments that all the kernels share. */
 struct args {
 	uint32_t n_rays;
 	const struct ray *rays;
@@ -24,14 +24,14 @@ struct args {
 	{ (a)->n_rays, (a)->rays, (a)->top_first, (a)->top, (a)->instance_list, (a)->instances, (a)->nodes, (a)->triangles, \
 	kind }
 
-/* One ray on its way. */
+/* State of a ray during traversal. */
 struct walk {
 	const struct args *args;
 	float o[3], d[3], inverse[3]; /* in the space of the tree that it walks */
 	float t_min;
-	struct hit hit; /* hit.t: the ray's end so far */
-	int any;        /* the first hit will do */
-	uint32_t to_lights, passes; /* as in kernels/rays/rays.h; of the instance that it walks */
+	struct hit hit; /* hit.t: end of the ray so far */
+	int any;        /* 1: any hit will do */
+	uint32_t to_lights, passes; /* as in kernels/rays/rays.h; for the instance that it walks */
 };
 
 static int done(const struct walk *w)
@@ -70,7 +70,7 @@ static void try_triangle(struct walk *w, const float v0[3], const float e1[3], c
 	cross(s, e1, q);
 	v = dot(w->d, q) * inverse;
 	t = dot(e2, q) * inverse;
-	/* A determinant of 0 makes NaNs or infinities of u and v, which fail here. */
+	/* A determinant of 0 makes u and v NaN or infinite, which fails here. */
 	if (u >= -RAYS_EDGE_SLACK && v >= -RAYS_EDGE_SLACK && u + v <= 1 + RAYS_EDGE_SLACK && t >= w->t_min &&
 	    (t < w->hit.t || (t == w->hit.t && primitive < w->hit.primitive)) && !(w->passes & rays_side(inverse)) &&
 	    RAYS_FLAT * largest(e1) * largest(e2) * (largest(w->d) * fabsf(inverse)) < 1)
@@ -89,7 +89,7 @@ static int hits_box(const struct walk *w, const float lo[3], const float hi[3])
 		enter = fmaxf(enter, fminf(t0, t1));
 		leave = fminf(leave, fmaxf(t0, t1));
 	}
-	/* A little more, for rounding in t. */
+	/* A little slack for rounding in t. */
 	return enter <= leave + 1e-5f * fabsf(leave);
 }
 
@@ -101,8 +101,8 @@ static int hits_lane(const struct walk *w, const struct node8 *node, int lane)
 	return hits_box(w, lo, hi);
 }
 
-/* d, and 1/d, finite: a ray that runs along a plane is moved off it by next to nothing. @return 0: it hits nothing from
- * its o */
+/* d, and 1/d, finite: a ray parallel to a plane is tilted off it by a negligible amount. @return 0: it hits nothing
+ * from its o */
 static int set_direction(struct walk *w, const float d[3])
 {
 	int in_range = 1;
@@ -214,7 +214,7 @@ static void walk_blas(struct walk *w, uint32_t instance_index)
 		walk_compressed(w, instance_index);
 }
 
-/* How far along the ray its walk through an instance starts. */
+/* Distance along the ray where its walk through an instance starts. */
 static float far_shift(const struct instance *instance, const float o[3], const float d[3])
 {
 	const float c[3] = { instance->centre[0] - o[0], instance->centre[1] - o[1], instance->centre[2] - o[2] };
@@ -224,7 +224,7 @@ static float far_shift(const struct instance *instance, const float o[3], const 
 	return shift * length > RAYS_FAR * instance->radius && isfinite(shift) ? shift : 0;
 }
 
-/* Into an instance's object space, through its tree, and back. */
+/* Enter an instance's object space, walk its tree, and return. */
 static void walk_instance(struct walk *w, uint32_t instance_index)
 {
 	const struct walk eye = *w;
@@ -326,7 +326,7 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any, uin
 	return w.hit;
 }
 
-/* The twins of one list of arguments: any hit, and the nearest. */
+/* The twins of one argument list: any hit, and nearest hit. */
 #define TWINS(list, tree) \
 	void occlude_##list##_c(const struct occlude_##list##_arguments *a, size_t first, size_t last) \
 	{ \

@@ -9,7 +9,7 @@ void shadow_ray_c(const struct shadow_ray_arguments *a, size_t first, size_t las
 		shadow_ray_item(a, (uint32_t)i, 0, &kept);
 }
 
-/* Each ray on its own: what neighbours share must not show. */
+/* Each ray is processed alone, so that caching between neighbours must not be visible. */
 void shadow_ray_packet_c(const struct shadow_ray_arguments *a, size_t first, size_t last)
 {
 	shadow_ray_c(a, first * SHADE_PACKET, last * SHADE_PACKET);
@@ -30,7 +30,7 @@ KERNEL_TWIN(bounce_ray, n)
 KERNEL_TWIN(credit, n)
 KERNEL_TWIN(ao_shade, n)
 
-/* Lights are asked of hits at once. */
+/* This kernel handles all lights of a hit at once. */
 void hit_ray_packet_c(const struct hit_ray_arguments *a, size_t first, size_t last)
 {
 	const struct want_lights_arguments w = { .tables = a->tables,

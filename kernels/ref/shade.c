@@ -11,7 +11,7 @@ void shade_c(const struct shade_arguments *a, size_t first, size_t last)
 		shade_item(a, (uint32_t)i, 0, &kept);
 }
 
-/* Each fragment on its own: what neighbours share must not show. */
+/* Each fragment is processed alone, so that caching between neighbours must not be visible. */
 void shade_packet_c(const struct shade_arguments *a, size_t first, size_t last)
 {
 	shade_c(a, first * SHADE_PACKET, last * SHADE_PACKET);

@@ -1,10 +1,10 @@
-/* Arguments one by one, as kernel_twin has them, become the structs that twins read: take_LIST for each list of
+/* Converts arguments passed one by one, as in kernel_twin, to the structs that twins read: take_LIST for each list of
  * kernels.h. */
 #pragma once
 
 #include "kernels/kernels.h"
 
-/* Each takes its arguments from the front of what is left of them. */
+/* Each takes its arguments from the front of the remaining ones. */
 #define TAKE_BUFFER(element, name) a->name = (GLOBAL element_##element *)(size_t)*(*from)++;
 #define TAKE_VALUE(element, name) a->name = *(const element_##element *)*(*from)++;
 #define TAKE_GROUP(list, name) take_##list(&a->name, from);

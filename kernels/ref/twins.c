@@ -1,4 +1,4 @@
-/* The twins' table: arguments one by one become the structs that twins read. */
+/* The table of twins: converts arguments passed one by one to the structs that twins read. */
 #include "kernels/ref/take.h"
 
 KERNEL_GROUPS(TAKE_GROUP_LIST)
