@@ -1,10 +1,11 @@
-"""Turns the kernels into C text, so that the command carries them and compiles them at run time with no files around.
+"""Converts the kernels to C text, so that the command contains them and compiles them at run time without other files.
 
 usage: embed.py OUT.c OUT.d INCLUDE_DIR... -- FILE.cl...
 
-The first #include "..." of a file is replaced by its text (searched beside the including file, then in the given
-folders), every one of NAME_lanes.h (kernels/one_lanes.h), and line numbers of compiler messages are kept by #line. OUT.c defines kernel_files and kernel_places
-(kernels/embed.h). OUT.d is the list of files read, for make. Same input, same bytes.
+The first #include "..." of each file is replaced by the file's text, searched beside the including file and then in the
+given folders; for NAME_lanes.h (kernels/one_lanes.h), every #include is. #line keeps the line numbers of compiler
+messages. OUT.c defines kernel_files and kernel_places (kernels/embed.h). OUT.d lists the files read, for make. The same
+input gives the same bytes.
 """
 import os
 import re

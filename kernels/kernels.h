@@ -52,7 +52,7 @@ typedef float element_float;
 /* Camera rays: kernels/camera/camera.h. The kernels differ in the type of their trees' nodes. */
 #define ARGUMENTS_camera_pass(IN, OUT, VALUE, GROUP, AND) \
 	VALUE(uint, view_index) AND() IN(view, views) AND() \
-	VALUE(uint, width) AND()            /* of the drawable */ \
+	VALUE(uint, width) AND()            /* drawable's width */ \
 	VALUE(uint, height) AND() \
 	VALUE(camera_rectangle, rectangle) AND() /* pixels to trace */ \
 	VALUE(uint, first_pixel) AND()      /* number of the first pixel in the buffers below */ \
@@ -204,7 +204,7 @@ typedef float element_float;
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() \
 	IN(fragment, sparse) AND()          /* one per pixel of the band, at its place in the rectangle */ \
 	VALUE(camera_rectangle, rectangle) AND() /* relative to the band's first row */ \
-	VALUE(uint, width) AND() VALUE(uint, height) AND() /* of the drawable */ \
+	VALUE(uint, width) AND() VALUE(uint, height) AND() /* size of the drawable */ \
 	VALUE(uint, first_pixel) AND()      /* number of the band's first pixel */ \
 	VALUE(uint, bits) AND() \
 	IN(frame_pixel, cleared) AND()      /* one pixel: each pixel's value before drawing */ \
@@ -230,14 +230,14 @@ typedef float element_float;
 /* How a round of looks takes over an earlier picture. */
 #define ARGUMENTS_layered_start(IN, OUT, VALUE, GROUP, AND) \
 	IN(uint, colors) AND() IN(uint, depths) AND() /* as layered_picture leaves them */ \
-	VALUE(uint, width) AND() VALUE(uint, height) AND() VALUE(uint, bits) AND() /* of the band */ \
+	VALUE(uint, width) AND() VALUE(uint, height) AND() VALUE(uint, bits) AND() /* size of the band */ \
 	OUT(float, kept)                    /* same layout as layers.before */
 
 /* The result of the last round, in the format of GL's frame buffer. */
 #define ARGUMENTS_layered_picture(IN, OUT, VALUE, GROUP, AND) \
 	/* as in layered_start */ \
 	IN(float, kept) AND() VALUE(uint, width) AND() VALUE(uint, height) AND() VALUE(uint, bits) AND() \
-	/* per pixel: colour, red in the lowest byte; depth in the buffer's steps, 24 bits of which count */ \
+	/* per pixel: colour, red in the lowest byte; depth in the buffer's steps (24 significant bits) */ \
 	OUT(uint, colors) AND() OUT(uint, depths) AND() \
 	OUT(uint, unknown)                  /* [PLAIN_WIDTH pixels of a row]: a bit for each pixel of unknown colour */
 
@@ -310,7 +310,7 @@ typedef float element_float;
 #define ARGUMENTS_dome_light(IN, OUT, VALUE, GROUP, AND) \
 	IN(dome_place, places) AND() IN(float, sums) AND() IN(uint, pixels) AND() \
 	IN(uint, first) AND() IN(uint, counts) AND() /* per pixel of the band: its first fragment in the list; how many */ \
-	VALUE(camera_rectangle, rectangle) AND() /* where first and counts hold; relative to the band's first row */ \
+	VALUE(camera_rectangle, rectangle) AND() /* rectangle of first and counts, relative to the band's first row */ \
 	VALUE(uint, width) AND() \
 	VALUE(uint, first_pixel) AND()      /* number of the band's first pixel */ \
 	VALUE(scene_dome, dome) AND() \

@@ -96,8 +96,8 @@ SHARED_SIZE(struct node8, 256);
 /*
  * An eight-wide node in 80 bytes: five 16-byte loads on a GPU (Ylitie, Karras and Laine 2017, "Efficient incoherent ray
  * traversal on GPUs through compressed wide BVHs"). The children's boxes are quantised to a grid of 8 bits per axis
- * over the node's box, and always contain the exact box. Slot s holds the child that lies farthest along diagonal s (a
- * set bit means +axis), so visiting slots in the order of s ^ the ray's octant is roughly front to back without
+ * over the node's box, and always contain the exact boxes. Slot s holds the child that lies farthest along diagonal s
+ * (a set bit means +axis), so visiting slots in the order of s ^ the ray's octant is roughly front to back without
  * sorting. kernels/rays/compressed.h reads it.
  */
 struct node8c {
@@ -155,7 +155,7 @@ SHARED_SIZE(struct face8, 128);
 struct instance {
 	float eye_from_obj[12]; /* 3 rows of 4 */
 	float obj_from_eye[12];
-	uint32_t node2_first, node8_first, triangle_first, triangle8_first; /* where its BLAS starts in each pool */
+	uint32_t node2_first, node8_first, triangle_first, triangle8_first; /* start of its BLAS in each pool */
 	uint32_t node8c_first, triangle8c_first;
 	uint32_t vertex_first;    /* its first vertex in the frame's vertex buffers */
 	uint32_t primitive_first; /* order number of its first primitive */
@@ -311,7 +311,7 @@ struct path {
 };
 SHARED_SIZE(struct path, 32);
 
-/* Where light that mirrors and glass redirected meets a surface that receives it (kernels/frame/photon.h). */
+/* A meeting of light that mirrors and glass redirected with a surface that receives it (kernels/frame/photon.h). */
 struct photon {
 	float position[3], length;    /* eye space; of its whole path from the light */
 	float direction[3];           /* unit direction of travel on arrival */

@@ -2,10 +2,10 @@
  * Light from all around (scene_dome): one listed fragment per work item. Surfaces that GL lights take a given share of
  * it.
  *
- * Pixels of a block share a set of directions, of which each traces its own part (A. Keller and W. Heidrich,
- * "Interleaved Sampling", 2001). A fragment receives the mean over the block around it: of neighbours on the same
- * surface or, if these are few, of all neighbours that face the same way. This keeps noise away with few rays. If a
- * block still has too few rays, its light counts in proportion.
+ * Pixels of a block share a set of directions, and each traces its own part (A. Keller and W. Heidrich, "Interleaved
+ * Sampling", 2001). A fragment receives the mean over the block around it: of neighbours on the same surface or, if
+ * these are few, of all neighbours that face the same way. This keeps noise away with few rays. If a block still has
+ * too few rays, its light counts in proportion.
  *
  * The distance that a ray looks varies from ray to ray, evenly in its logarithm, so near surfaces dim the light more
  * than far ones, whatever the scene's scale (after S. Zhukov, A. Iones and G. Kronin, "An ambient light illumination
@@ -225,8 +225,8 @@ static inline void dome_apply(GLOBAL struct shaded *s, struct vec3 factor)
 	v3_store(s->beauty, v3_add(v3_load(s->beauty), more));
 }
 
-/* First and last row, within the rectangle, of the tile that a row of the band belongs to. Bands end at tile borders,
- * and so do blocks. */
+/* First and last row, within the rectangle, of the tile that a row of the band belongs to. Bands and blocks end at tile
+ * borders. */
 static inline void dome_rows(const struct dome_light_arguments *a, uint32_t y, uint32_t *bottom, uint32_t *top)
 {
 	const uint32_t low = y / CAMERA_TILE * CAMERA_TILE;

@@ -37,7 +37,7 @@ static inline void find_left(const struct dome_find_arguments *a, uint first, st
 	}
 }
 
-/* Where sixteen fragments receive the dome's light. */
+/* Dome data of sixteen fragments. */
 struct looks {
 	struct vec3_16 o, axes[3]; /* axes[2]: the normal */
 	packf strength;             /* 0: receives none */

@@ -2,7 +2,7 @@
  * Shapes that a user's hook defines by its functions bounds and intersection (corpus/hooks/README.md), replacing
  * instances' triangles.
  *
- *   hook_bounds     bounds: the boxes in which intersection is called
+ *   hook_bounds     bounds: the boxes that limit calls of intersection
  *   hook_intersect  intersection: after the nearest triangle was found
  *   hook_occlude    the same for any hit
  *

@@ -30,7 +30,7 @@ struct pack_pixels {
 	packf drawn, depth, normal[3], position[3], id, layers;
 };
 
-/* Where composed pixels are stored. */
+/* Destination of composed pixels. */
 struct pack_planes {
 	const struct compose_request *request;
 	__global ushort *halves;

@@ -179,7 +179,7 @@ WIDE_VECTORS static inline void pack_split_light(const struct tables *t, const s
 	s->through = through * (1.0f - fresnel);
 }
 
-/* Where the next rays of items are written, with `slots` places per item. */
+/* Destination of the next rays of items, with `slots` places per item. */
 struct pack_branches {
 	__global struct ray *rays;
 	__global struct path *paths;

@@ -592,8 +592,8 @@ static inline uint pack_program_across(const struct shade_arguments *a, const st
 }
 
 /*
- * program_item for fragments of one material for which pack_knows_program holds. unplaced: 1 if their weights and
- * depths are still the camera's
+ * program_item for fragments of one material that satisfy pack_knows_program. unplaced: 1 if their weights and depths
+ * are still the camera's
  * @return the lanes that are done: none in slivers
  */
 static inline uint pack_program(const struct shade_arguments *a, const struct pack_list *list, uint lanes, int unplaced,

@@ -121,7 +121,7 @@ static inline __global const struct scene_light *pack_lights_of(const struct tab
 	return t->lights + (m->surface.relit ? m->surface.light_first : m->light_first);
 }
 
-/* stage_light_ray for a light without a size and a material for which pack_knows_rays holds; writes rays[place[lane]]
+/* stage_light_ray for a light without a size and a material that satisfies pack_knows_rays; writes rays[place[lane]]
  * for the lanes that need a ray. */
 static inline void pack_light_rays(const struct pack *p, const struct pack_surface *s, const struct pack_curve *curve,
                                    struct vec3_16 back, __global const struct scene_light *light, uint lanes,

@@ -160,7 +160,7 @@ static inline packu pack_texcoord_first(const struct tables *t, const struct pac
 	return first;
 }
 
-/* point_fog for materials for which pack_is_plain holds. */
+/* point_fog for materials that satisfy pack_is_plain. */
 WIDE_VECTORS static inline packf pack_fog(const struct tables *t, const struct pack *p)
 {
 	__global const struct scene_material *m = p->material;
@@ -390,7 +390,7 @@ static inline struct vec4_16 pack_direct(const struct shade_arguments *a, const 
 }
 
 /*
- * shade_item for fragments of one plain material, and of geometries for which pack_knows_geometry holds.
+ * shade_item for fragments of one plain material, and of geometries that satisfy pack_knows_geometry.
  * @return the lanes that are done: none in slivers
  */
 static inline uint pack_shade(const struct shade_arguments *a, const struct pack_list *list, uint lanes,

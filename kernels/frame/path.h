@@ -22,7 +22,7 @@ static inline void gather_paths_item(const struct gather_paths_arguments *a, uin
 	}
 }
 
-/* Where a point's next rays are written. */
+/* Destination of a point's next rays. */
 struct branches {
 	GLOBAL struct ray *rays;
 	GLOBAL struct path *paths;

@@ -133,7 +133,7 @@ KERNEL_OF(float16) void hit_ray_packet(KERNEL_ARGUMENTS(hit_ray))
 
 /* --- Hits -------------------------------------------------------------------------------------------------------- */
 
-/* What paths carry. */
+/* Loads of paths. */
 struct way {
 	struct vec3_16 weight;
 	packu kind;

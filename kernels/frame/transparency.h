@@ -179,9 +179,7 @@ static inline struct vec3 transparency_of_hit(const struct tables *t, const stru
 	return m->depth_write ? transparency_of_blend(m, color) : all;
 }
 
-/*
- * Where on a ray the search for the next surface starts: the same ray would meet the last surface at the same t again.
- */
+/* Start of the search for the next surface on a ray: the same ray would meet the last surface at the same t again. */
 static inline float ray_beyond(float t)
 {
 	return t > 0.0f ? M_FLOAT(M_BITS(t) + 1u) : 1.0e-37f;

@@ -68,7 +68,7 @@ static inline struct clip_spot clip_spot(GLOBAL const struct view *view, int32_t
 
 /*
  * Origin of the coordinates of planes: the centre of the first pixel, as in llvmpipe, or the window's corner if pixels
- * have several samples (none of which is at the centre).
+ * have several samples (and none at the centre).
  */
 static inline float clip_origin(GLOBAL const struct view *view)
 {

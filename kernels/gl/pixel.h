@@ -161,7 +161,7 @@ static inline uint32_t pixel_alpha_bits(uint32_t bits)
 	return bits >> 16 & 255u;
 }
 
-/* A pixel as GL's frame buffer held it; the other fields are 0. depth: in the buffer's steps, 24 bits of which count */
+/* A pixel as GL's frame buffer held it; the other fields are 0. depth: in the buffer's steps; 24 bits count */
 static inline void pixel_start(struct frame_pixel *pixel, const float gl[4], uint32_t depth, uint32_t bits)
 {
 	const uint32_t depth_bits = pixel_depth_bits(bits), far = pixel_bits_mask(depth_bits);

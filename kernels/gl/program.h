@@ -1,6 +1,6 @@
 /*
  * Fragment programs (ARB_fragment_program); instructions.h runs them. Each runs for the four pixels of llvmpipe's quad
- * at once, one of which is the fragment, because textures choose their levels by how coordinates change across the
+ * at once, the fragment and three neighbours, because textures choose their levels by how coordinates change across the
  * quad, however those were computed.
  */
 #pragma once

@@ -1,7 +1,7 @@
 /*
  * User clip planes (GL 2.1 sec. 2.12) at one pixel. Mesa's draw module (22.3) clips a triangle by them after the view
  * volume's planes, in the same way (kernels/gl/clip.h), so that new edges run between snapped corners. The test is
- * therefore whether a remaining part covers the pixel, not on which side of a plane its centre lies.
+ * therefore whether a remaining part covers the pixel, not which side of a plane its centre is on.
  */
 #pragma once
 

@@ -1,8 +1,8 @@
 /*
  * Vertex programs (ARB_vertex_program); instructions.h runs them, for four vertices at once. The program's outputs
- * replace what fixed function (vertex.h) computed for a vertex: a clip position, from which the eye position is
- * recovered by the projection; colours, texture coordinates, fog coordinate, point size. The normal remains fixed
- * function's if the position does.
+ * replace what fixed function (vertex.h) computed for a vertex: a clip position (the projection then recovers the eye
+ * position); colours, texture coordinates, fog coordinate, point size. The normal remains fixed function's if the
+ * position does.
  */
 #pragma once
 

@@ -79,8 +79,8 @@ static inline struct planes octant_planes(int octant)
 	return s;
 }
 
-/* Largest distance at which boxes are tested: walk_end of kernels/rays/walk.h. For a finished ray (t_max -infinity) it
- * is NaN, so that the ray meets no box. */
+/* Limit for box tests: walk_end of kernels/rays/walk.h. For a finished ray (t_max -infinity) it is NaN, so that the ray
+ * meets no box. */
 static inline packf packet_end(const struct packet *p)
 {
 	return fma(fabs(p->t_max), RAYS_END_SLACK, p->t_max);

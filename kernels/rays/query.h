@@ -30,7 +30,7 @@
 /* Padding of node boxes, as a share of the numbers that give their position: more than the rounding error of an
  * answer. */
 #define QUERY_PAD 2e-6f
-/* The same for t, and the distance at which a triangle counts as touching a sphere. */
+/* The same for t, and the distance that counts as touching a sphere. */
 #define QUERY_SLACK 1e-5f
 #define QUERY_TOUCH 1e-6f
 /*
@@ -50,8 +50,8 @@
 /* State of a query during traversal. */
 struct query {
 	struct vec3 o, d;    /* point, ray, or path of a body's centre */
-	struct vec3 inverse; /* of d */
-	struct vec3 size;    /* how far a body extends beyond its centre */
+	struct vec3 inverse; /* inverse of d */
+	struct vec3 size;    /* half extent of a body around its centre */
 	float radius;        /* the sphere's radius */
 	float t_min;
 	float far;           /* cutoff: t, or the distance squared */
@@ -90,7 +90,7 @@ static inline struct vec3 query_cross(struct vec3 a, struct vec3 b)
 
 /* --- Boxes of nodes ---------------------------------------------------------------------------------------------- */
 
-/* Where the path enters and leaves [lo, hi] along one axis. */
+/* Distances at the two ends of the path's part inside [lo, hi], along one axis. */
 static inline void query_slab(float lo, float hi, float o, float inverse, float *enter, float *leave)
 {
 	const float a = (lo - o) * inverse, b = (hi - o) * inverse;

@@ -62,7 +62,7 @@ static inline uint32_t rays_side(float determinant)
 /* How far beyond the nearest hit boxes are still tested, as a share of its t. */
 #define RAYS_END_SLACK 4e-6f
 
-/* Distance, in radii, from which a ray is moved. */
+/* Rays that start farther away than this many radii are moved. */
 #define RAYS_FAR 64.0f
 
 /* Stack entries for an eight-wide tree: seven siblings per level. */

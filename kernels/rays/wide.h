@@ -9,7 +9,7 @@
 #include "kernels/rays/lanes.h"
 #include "kernels/rays/walk.h"
 
-/* Where the ray enters the eight boxes. @return a bit for each box that it meets */
+/* Find where the ray enters the eight boxes. @return a bit for each box that it meets */
 static inline uint meet_boxes(const struct walk *w, __global const struct node8 *node, float8 *enter)
 {
 	__global const float *rows = (__global const float *)node;
