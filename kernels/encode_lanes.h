@@ -10,8 +10,7 @@ LANES REAL encode_power(REAL x, float exponent)
 	REAL m = OF_BITS((bits & 0x7fffffu) + 0x3f3504f3u), e = TO_REAL(AS_INT(bits) >> 23);
 	REAL s = (m - 1.0f) / (m + 1.0f), s2 = s * s;
 	REAL log2m = s * (2.885390082f + s2 * (0.961796694f + s2 * (0.577078016f + s2 * 0.412198583f)));
-	REAL up = exponent * (e + log2m) + 12582912.0f, whole = up - 12582912.0f; /* adding 1.5 x 2^23 rounds to an
-                                                                               * integer */
+	REAL up = exponent * (e + log2m) + 12582912.0f, whole = up - 12582912.0f; /* adding 1.5 x 2^23 rounds */
 	REAL f = (exponent * e - whole) + exponent * log2m;
 	REAL p = 1.0f + f * (0.6931471806f + f * (0.2402265070f + f * (0.0555041087f + f * (0.0096181291f +
 	         f * (0.0013333558f + f * 0.0001540353f)))));

@@ -101,7 +101,7 @@ typedef float element_float;
 	VALUE(uint, n) AND() IN(node2, nodes) AND() IN(triangle, triangles)
 #define ARGUMENTS_query_all(IN, OUT, VALUE, GROUP, AND) \
 	ARGUMENTS_QUERY(IN, OUT, VALUE, GROUP, AND) AND() IN(ray, rays) AND() \
-	VALUE(uint, most) AND()             /* maximum number of hits kept per ray */ \
+	VALUE(uint, most) AND()             /* maximum number of hits per ray */ \
 	OUT(hit, hits) AND() OUT(uint, counts)
 #define ARGUMENTS_query_distance(IN, OUT, VALUE, GROUP, AND) \
 	ARGUMENTS_QUERY(IN, OUT, VALUE, GROUP, AND) AND() IN(query_point, points) AND() OUT(query_nearest, nearest)
@@ -124,7 +124,7 @@ typedef float element_float;
 	IN(geometry, geometries) AND() IN(view, views) AND() IN(uint, owners) AND() IN(float, clips) AND() \
 	VALUE(uint, height) AND() VALUE(uint, n) AND() OUT(window_vertex, windows)
 #define ARGUMENTS_gather(IN, OUT, VALUE, GROUP, AND) \
-	IN(fragment, sparse) AND()          /* `slots` a pixel */ \
+	IN(fragment, sparse) AND()          /* `slots` per pixel */ \
 	IN(uint, counts) AND()              /* fragments in each pixel's slots */ \
 	VALUE(uint, slots) AND() \
 	IN(uint, first) AND()               /* index of each pixel's first fragment in the list */ \

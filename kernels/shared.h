@@ -102,12 +102,11 @@ SHARED_SIZE(struct node8, 256);
  */
 struct node8c {
 	float origin[3];    /* lower corner of the grid */
-	uint32_t exponents; /* one byte each: float exponents of the grid's steps along x, y, z, then a mask of the slots
-                         * that are nodes */
+	uint32_t exponents; /* a byte each: float exponents of the grid's steps along x, y, z; a mask of slots with nodes */
 	uint32_t child_first;    /* index of the first child node; child nodes are consecutive, in slot order */
 	uint32_t triangle_first; /* in triangles8c */
-	uint32_t meta[2]; /* a byte per slot, little end first: 0 for a node or an empty slot; else NODE8C_LEAF | (triangles
-                       * - 1) << 5 | the first triangle, relative to triangle_first */
+	uint32_t meta[2]; /* a byte per slot, little end first: 0 for a node or nothing; else NODE8C_LEAF | (triangles - 1)
+                       * << 5 | the first triangle, relative to triangle_first */
 	uint32_t lo[3][2], hi[3][2]; /* a byte per slot; empty slots have lo 255, hi 0 */
 };
 SHARED_SIZE(struct node8c, 80);
@@ -146,8 +145,7 @@ SHARED_SIZE(struct face8, 128);
                                   * pixels, and camera rays test it as points; never secondary */
 /* drawn around the viewer before anything with depth: seen by secondary rays that hit nothing */
 #define INSTANCE_SKY 128u
-#define INSTANCE_PASS_COUNTER 256u   /* rays to lights pass through triangles whose corners run counter-clockwise as
-                                      * seen by the ray */
+#define INSTANCE_PASS_COUNTER 256u   /* rays to lights pass triangles that run counter-clockwise as seen from the ray */
 #define INSTANCE_PASS_CLOCKWISE 512u
 #define INSTANCE_BAKED 64u       /* the modelview has no inverse or is projective: the BLAS is in eye space */
 
@@ -160,13 +158,11 @@ struct instance {
 	uint32_t vertex_first;    /* its first vertex in the frame's vertex buffers */
 	uint32_t primitive_first; /* order number of its first primitive */
 	uint32_t flags;
-	float pad; /* by how much camera rays widen its boxes, in object units, because snapping moves edges by 1/256
-                * pixel */
+	float pad; /* added to its boxes for camera rays, object units: snapping moves edges by 1/256 pixel */
 	uint32_t material, view;  /* indices in scene.h's arrays */
 	uint32_t draw;
 	uint32_t scene_instance;  /* index in scene.instances (screen geometry may be split into several instances) */
-	float centre[3], radius;  /* centre of its BLAS's box, object space; half the sum of the box's width, height and
-                               * depth */
+	float centre[3], radius;  /* centre of its BLAS's box, object space; half of width + height + depth */
 };
 SHARED_SIZE(struct instance, 168);
 
@@ -215,8 +211,7 @@ struct shaded_vertex {
 	float normal[3];       /* eye space, normalised only where GL does */
 	float fog_coord;
 	uint32_t lit[2];       /* per side, bit i: light i of the material's list adds diffuse or specular light here */
-	float size[2]; /* points: [0] is the size after attenuation, before rounding. Corners of smooth lines: the place,
-                    * see below */
+	float size[2]; /* points: [0] is the size after attenuation, before rounding; smooth lines: see below */
 };
 SHARED_SIZE(struct shaded_vertex, 128);
 
@@ -253,10 +248,8 @@ struct geometry {
 	uint32_t texcoord[SCENE_MAX_UNITS], face;
 	uint32_t generics;        /* start of each generic array that `attributes` has, in order */
 	uint32_t crease;         /* start of the creases in the pool of floats; SCENE_NONE: none */
-	uint32_t index;          /* start of its indices in the pool of indices, 3 per primitive, relative to
-                              * vertex_first */
-	uint32_t primitive_draw; /* start of its draw numbers in the pool of indices; SCENE_NONE: all primitives belong to
-                              * one draw */
+	uint32_t index;          /* start of its indices in the pool, 3 per primitive, relative to vertex_first */
+	uint32_t primitive_draw; /* start of its draw numbers in the pool of indices; SCENE_NONE: a single draw */
 	uint32_t vertex_first;   /* its first vertex in the frame's vertex buffers */
 	uint32_t vertex_count;
 	uint32_t texcoord_first; /* its first [4] in the frame's texture coordinates: unit_count of them per vertex */
@@ -302,12 +295,10 @@ SHARED_SIZE(struct shaded, 84);
 struct path {
 	float weight[3];
 	uint32_t target; /* fragment in the list; for rays to lights: slot * n + item */
-	uint32_t kind;   /* PATH_*: the part of the fragment that receives its radiance; for rays to lights: as in
-                      * shadow_walk */
+	uint32_t kind;   /* PATH_*: part of the fragment that it adds to; for rays to lights: as in shadow_walk */
 	uint32_t depth;  /* bounces so far, not counting the fragment's own */
 	uint32_t medium; /* material of the body it travels in, or SCENE_NONE */
-	float density;   /* density per steradian of the directions where it was scattered; 0: its direction was not
-                      * sampled */
+	float density;   /* density of the scattered directions, per steradian; 0: not sampled */
 };
 SHARED_SIZE(struct path, 32);
 

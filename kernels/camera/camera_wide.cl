@@ -293,7 +293,7 @@ static inline void walk_screen_compressed(struct pixel *p, uint index, float2 at
 	pixel_walk_compressed(p, index, &w, 1);
 }
 
-/* Geometry in window space. */
+/* Test geometry in window space. */
 INLINED void walk_screen(struct pixel *p, uint index, int is_compressed)
 {
 	if (is_compressed)

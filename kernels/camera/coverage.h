@@ -29,7 +29,7 @@ static inline int coverage_inside(struct window_vertex a, struct window_vertex b
 	return e > 0 || (e == 0 && (dy < 0 || (dy == 0 && dx > 0)));
 }
 
-/* All vertices have a place in the window. */
+/* Coverage if all vertices have a place in the window. */
 static inline int coverage_placed(struct window_vertex v0, struct window_vertex v1, struct window_vertex v2, uint flags,
                            struct clip_spot at, float *b1, float *b2, float *depth)
 {

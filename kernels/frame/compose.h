@@ -194,7 +194,6 @@ static inline uint32_t compose_at(const struct compose_request *r, uint32_t numb
 	return (r->height - 1u - number / r->width) * r->width + number % r->width;
 }
 
-/* compose */
 static inline void compose_item(const struct compose_arguments *a, uint32_t item)
 {
 	compose_one(a, &a->frame[item], item, compose_at(&a->request, item));

@@ -119,8 +119,7 @@ static inline float dome_height(const struct scene_dome *dome, struct vec3 d)
 static inline void dome_sum_item(const struct dome_sum_arguments *a, uint32_t item)
 {
 	const struct scene_dome *dome = &a->dome;
-	const int same = dome_height(dome, v3(0.0f, 0.0f, 0.0f)) == 1.0f; /* 1: the dome has the same colour in all
-                                                                       * directions */
+	const int same = dome_height(dome, v3(0.0f, 0.0f, 0.0f)) == 1.0f; /* 1: the same colour in all directions */
 	GLOBAL float *sums = a->sums + item * 4u;
 	float sum[4] = { 0.0f, 0.0f, 0.0f, 0.0f };
 
@@ -310,7 +309,6 @@ static inline void dome_light_at(const struct dome_light_arguments *a, uint32_t 
 	}
 }
 
-/* dome_light */
 static inline void dome_light_item(const struct dome_light_arguments *a, uint32_t item)
 {
 	const uint32_t pixel = a->pixels[item] - a->first_pixel;

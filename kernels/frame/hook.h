@@ -37,7 +37,7 @@ static inline struct vec3 hook_color(const struct hook_answer *a)
 	return v3(a->color[0], a->color[1], a->color[2]);
 }
 
-/* The ray that a hook is asked about. */
+/* The ray that led to the surface a hook is asked about. */
 struct hook_way {
 	struct vec3 origin, direction; /* unit length */
 	float distance;

@@ -27,13 +27,11 @@ struct layered_row {
 	struct pack_pixels pixels;
 	packu depth;         /* in the depth buffer's format */
 	uint step;           /* PLAIN_* */
-	packu last, surface; /* layer of the last fragment drawn, and of the one whose surface is visible; SCENE_NONE:
-                          * none */
+	packu last, surface; /* layer of the last fragment drawn, and of the visible surface; SCENE_NONE: none */
 	uint n;
 	uint unknown;    /* a bit for each pixel that shows colours from before the frame which are not known */
 	int is_mirrored; /* 1: mirrored and beauty differ from direct */
-	int at_once;     /* 1: layers are shaded and drawn as they are tested, since nothing in the previous row was
-                      * covered */
+	int at_once;     /* 1: layers are shaded and drawn as they are tested: the previous row had none covered */
 };
 
 /* --- Loading ----------------------------------------------------------------------------------------------------- */

@@ -32,15 +32,13 @@ struct pack_list {
 struct pack {
 	__global const struct scene_material *material;
 	__global const struct view *view;
-	uint instance, primitive; /* the single whole triangle that pack_place found all lanes in, cached for the next call;
-                               * SCENE_NONE: none */
+	uint instance, primitive; /* the whole triangle that all lanes were in last; SCENE_NONE: none */
 	packi x, row;             /* pixels, row 0 at the top */
 	int uniform;              /* 1: all lanes are in the same triangle */
 	packi cut, front;         /* all ones: the triangle leaves the view volume; it shows its front */
 	packu number[3];          /* vertex numbers in the mesh */
 	packu vertex[3];          /* vertex numbers in the frame */
-	packf px[3], py[3], z[3], w_inv[3]; /* corners of the triangle, or of the part of it that covers the pixel;
-                                         * positions from clip_origin */
+	packf px[3], py[3], z[3], w_inv[3]; /* corners of the triangle or of its covering part, from clip_origin */
 	uint part[PACK_SIZE];               /* pack_part of the lanes whose triangle is cut */
 	packf corner1[3], corner2[3];       /* for parts: the corners' weights of vertices 1 and 2 */
 	packf vertex_w_inv[3];

@@ -137,8 +137,7 @@ WIDE_VECTORS static inline packi pack_wrap_nearest(uint wrap, packf s, int n)
 	if (!(n & (n - 1)))
 		return place & (n - 1);
 	place = select(place, place + n, place < 0);
-	return clamp(select(place, place - n, place >= n), (packi)(0), (packi)(n - 1)); /* clamped, since coordinates may be
-                                                                                     * NaN */
+	return clamp(select(place, place - n, place >= n), (packi)(0), (packi)(n - 1)); /* coordinates may be NaN */
 }
 
 WIDE_VECTORS static inline packu pack_texels(__global const uint *texels, packu place)

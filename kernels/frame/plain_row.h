@@ -9,8 +9,7 @@
 /* Sixteen fragments of a row, one per pixel. */
 struct plain_row {
 	struct pack_list list;
-	uint x, y, base; /* first pixel's position in the band; its index among the rays, SCENE_NONE if the block has
-                      * none */
+	uint x, y, base; /* first pixel in the band; its index among the rays (SCENE_NONE: the block has none) */
 	uint dimmed;     /* a bit for each fragment that some light does not fully reach */
 };
 

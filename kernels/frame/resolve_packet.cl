@@ -10,7 +10,7 @@
 #include "kernels/gl/stages.h"
 
 #define LANE_ALPHA 3
-#define LANE_DIRECT 7 /* first lane of the parts that rules may omit or make opaque */
+#define LANE_DIRECT 7 /* first lane of the parts that rules may omit or make solid */
 #define LANE_BEAUTY 13
 #define LANE_CHANNELS (packu)(0, 1, 2, 3, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2)
 

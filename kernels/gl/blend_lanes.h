@@ -1,4 +1,4 @@
-/* Blending of 8 bits (blend.h, one_lanes.h). */
+/* 8-bit blending (blend.h, one_lanes.h). */
 
 LANES WORD blend_round(REAL x)
 {

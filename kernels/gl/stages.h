@@ -365,8 +365,7 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 	}
 	fragment_weights(f, kept->w_inv[0], kept->w_inv[1], kept->w_inv[2], p.weight);
 	coverage = stage_coverage(&p);
-	if (!(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE)) /* a line's border writes depth even where it
-                                                                            * ends */
+	if (!(coverage > 0.0f) && !(p.geometry->flags & GEOMETRY_SMOOTH_LINE)) /* a line's border still writes depth */
 		drawn = a->n_slots != 0u;
 	if (drawn && p.geometry->flags & GEOMETRY_PIXELS) {
 		group = stage_pixel_group(t, &p, x, a->height - 1u - y, &kind);
@@ -409,7 +408,7 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 
 /* --- Pixels ------------------------------------------------------------------------------------------------------ */
 
-/* clear: a pixel of the rectangle. */
+/* clear: clears a pixel of the rectangle. */
 static inline void clear_item(const struct clear_arguments *a, uint32_t item)
 {
 	pixel_clear(&a->clear, &a->frame[stage_pixel(a->rectangle, a->width, item)], a->bits);
@@ -449,7 +448,6 @@ static inline void stage_resolve(const struct resolve_arguments *a, uint32_t pix
 	}
 }
 
-/* resolve */
 static inline void resolve_item(const struct resolve_arguments *a, uint32_t item)
 {
 	stage_resolve(a, stage_pixel(a->rectangle, a->width, item));

@@ -129,8 +129,7 @@ static inline void vertex_keep(const struct vertex_program_arguments *a, GLOBAL 
 
 		if (!vertex_is_same(v4_load(out->clip), clip)) { /* otherwise fixed function's eye position is more accurate */
 			v4_store(out->eye, vertex_drawn_eye(view, clip));
-			v3_store(out->normal, v3(0.0f, 0.0f, 0.0f)); /* the program's rotation is unknown, so the triangle's normal
-                                                          * is used */
+			v3_store(out->normal, v3(0.0f, 0.0f, 0.0f)); /* unknown: use the triangle's */
 		}
 		v4_store(out->clip, clip);
 		v4_store(a->clips + (g->vertex_first + v) * 4u, clip);

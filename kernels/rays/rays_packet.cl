@@ -12,8 +12,8 @@
 #include "kernels/rays/wide.h"
 
 /*
- * Number of rays below which each continues alone, against eight boxes at once: less work than all lanes against each
- * box.
+ * Up to this many rays of a packet continue one by one, each against eight boxes at once: less work than all lanes
+ * against each box.
  */
 #define PACKET_FEW 2
 
@@ -290,8 +290,7 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any,
 		packet_prepare(&p[k]);
 		p[k].t_min = met ? eye[k].t_min - shift[k] : 1;
 		p[k].t_max = met ? eye[k].t_max - shift[k] : -INFINITY;
-		p[k].t_min = select((packf)(NAN), p[k].t_min, packet_in_range(&p[k])); /* the others sleep, and do not widen the
-                                                                                * beam */
+		p[k].t_min = select((packf)(NAN), p[k].t_min, packet_in_range(&p[k])); /* asleep; not in the beam */
 		if (any)
 			continue;
 		found[k].primitive = SCENE_NONE;

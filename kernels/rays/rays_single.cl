@@ -122,8 +122,7 @@ static inline void walk_compressed(struct walk *w, uint index, int any, uint pas
                                    __global const struct node8c *nodes, __global const struct triangle *triangles)
 {
 	const uint octant = (w->dx < 0 ? 0u : 1u) | (w->dy < 0 ? 0u : 2u) | (w->dz < 0 ? 0u : 4u);
-	uint2 stack[NODE8C_MAX_DEPTH]; /* groups of sibling nodes to visit: index of the first, and the result of
-                                    * meet_compressed */
+	uint2 stack[NODE8C_MAX_DEPTH]; /* groups of siblings to visit: first index, meet_compressed's result */
 	uint depth = 0, child = 0;
 
 	for (;;) {
