@@ -73,9 +73,7 @@ static inline struct vec4 blend_floats(GLOBAL const struct scene_material *m, st
 	          blend_float_equation(m->blend_equation_alpha, s.w, as.w, d.w, ad.w));
 }
 
-/*
- * --- sRGB frame buffers: as in llvmpipe (22.3.6, lp_bld_format_srgb.c) in both directions, to half a code -----------
- */
+/* --- sRGB frame buffers: as in llvmpipe (22.3.6, lp_bld_format_srgb.c), to half a code --------------------------- */
 
 static inline float blend_linear_from_code(uint32_t code)
 {

@@ -37,7 +37,7 @@ LANES REAL light_strength(GLOBAL const struct scene_light *light, VEC3 at, VEC3 
 	if (light->position_eye[3] != 0.0f) {
 		to = v3_sub(to, at);
 		distance = M_SQRT(v3_dot(to, to));
-		/* The distance to a light may overflow even if it is not used. */
+		/* The distance to a light may overflow, so it must not be used if the attenuation does not need it. */
 		strength = light->attenuation[1] == 0.0f && light->attenuation[2] == 0.0f ?
 		                   SAME(1.0f / light->attenuation[0]) :
 		                   1.0f / (light->attenuation[0] +

@@ -150,8 +150,8 @@ static int owns_edge(struct window_vertex a, struct window_vertex b)
 	return b.y < a.y || (b.y == a.y && b.x > a.x);
 }
 
-/* 1 if the centre is on the inner side of a -> b, for a triangle of the given orientation (1: counter-clockwise, or
- * -1). */
+/* 1 if the centre is on the inner side of a triangle's edge a -> b. sign: 1 for counter-clockwise triangles, else
+ * -1. */
 static int inside_edge(struct window_vertex a, struct window_vertex b, int sign, const struct pixel *p)
 {
 	const int64_t e = sign * edge(a, b, p);
