@@ -21,7 +21,7 @@ typedef float16 loose_floats __attribute__((aligned(4)));
 WIDE_VECTORS static inline packf blend(__global const struct scene_material *m, packf source, packf destination)
 {
 	const float4 own = vload4(0, m->blend_color);
-	const packu c = blend_round((packf)(own, own, own, own));
+	const packf c = (packf)(own, own, own, own);
 	struct blend8_16 of;
 	packu out;
 

@@ -13,10 +13,11 @@ LANES WORD blend_multiply(WORD a, WORD b)
 	return (ab + (ab >> 8) + 128u) >> 8;
 }
 
-/* Operands of factors, 0 to 255: a channel of the source, destination and constant colour, and their alphas. */
+/* Operands of factors: a channel of the source, destination and constant colour, and their alphas. */
 struct LANED(blend8) {
-	WORD s, s_alpha, d, d_alpha, c, c_alpha;
-	MASK is_alpha; /* the channel is alpha itself */
+	WORD s, s_alpha, d, d_alpha; /* 0 to 255 */
+	REAL c, c_alpha;             /* not rounded yet: few factors use them */
+	MASK is_alpha;               /* the channel is alpha itself */
 };
 
 /* A factor's value for one channel (table 4.2). */
@@ -32,10 +33,10 @@ LANES WORD blend_factor(uint32_t factor, const struct LANED(blend8) *of)
 	case GL_ONE_MINUS_SRC_ALPHA: return 255u - of->s_alpha;
 	case GL_DST_ALPHA: return of->d_alpha;
 	case GL_ONE_MINUS_DST_ALPHA: return 255u - of->d_alpha;
-	case GL_CONSTANT_COLOR: return of->c;
-	case GL_ONE_MINUS_CONSTANT_COLOR: return 255u - of->c;
-	case GL_CONSTANT_ALPHA: return of->c_alpha;
-	case GL_ONE_MINUS_CONSTANT_ALPHA: return 255u - of->c_alpha;
+	case GL_CONSTANT_COLOR: return blend_round(of->c);
+	case GL_ONE_MINUS_CONSTANT_COLOR: return 255u - blend_round(of->c);
+	case GL_CONSTANT_ALPHA: return blend_round(of->c_alpha);
+	case GL_ONE_MINUS_CONSTANT_ALPHA: return 255u - blend_round(of->c_alpha);
 	case GL_SRC_ALPHA_SATURATE:
 		return CHOOSE(of->is_alpha, (WORD)(255u),
 		              CHOOSE(of->s_alpha < 255u - of->d_alpha, of->s_alpha, 255u - of->d_alpha));
@@ -67,8 +68,8 @@ LANES REAL blend_channel(GLOBAL const struct scene_material *m, int channel, REA
 	of.s_alpha = s_alpha;
 	of.d = blend_round(destination);
 	of.d_alpha = d_alpha;
-	of.c = (WORD)(blend_round(m->blend_color[channel]));
-	of.c_alpha = (WORD)(blend_round(m->blend_color[3]));
+	of.c = SAME(m->blend_color[channel]);
+	of.c_alpha = SAME(m->blend_color[3]);
 	of.is_alpha = IF_ALL(is_alpha);
 	return TO_REAL(AS_INT(blend_equation(is_alpha ? m->blend_equation_alpha : m->blend_equation_rgb, of.s,
 	                                     blend_factor(is_alpha ? m->blend_src_alpha : m->blend_src_rgb, &of), of.d,
