@@ -99,40 +99,35 @@ int pixels_restore(const struct pixels *p, struct index *base, uint64_t frame, s
 
 /* --- Keeping ----------------------------------------------------------------------------------------------------- */
 
-/* An existing checkpoint. */
-struct one {
-	uint64_t frame, bytes;
-};
-
-static int by_frame(const void *a, const void *b)
+static int by_number(const void *a, const void *b)
 {
-	const uint64_t x = ((const struct one *)a)->frame, y = ((const struct one *)b)->frame;
+	const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
 
 	return (x > y) - (x < y);
 }
 
-/* All checkpoints of this trace and maker, by frame. @return to be freed; NULL: none, or out of memory */
-static struct one *list_own(const struct pixels *p, size_t *n, uint64_t *bytes)
+/* Frames of all checkpoints of this trace and maker, ascending, and their bytes. @return to be freed; NULL: none, or no
+ * memory */
+static uint64_t *list_own(const struct pixels *p, size_t *n, uint64_t *bytes)
 {
 	DIR *all = opendir(p->folder);
-	struct one *list = NULL, one;
+	uint64_t *list = NULL, frame;
 	size_t room = 0;
 	struct stat info;
 
 	*n = 0;
 	*bytes = 0;
 	for (struct dirent *e; all && (e = readdir(all));) {
-		if (!is_own(p, e->d_name, &one.frame) || fstatat(dirfd(all), e->d_name, &info, 0) ||
+		if (!is_own(p, e->d_name, &frame) || fstatat(dirfd(all), e->d_name, &info, 0) ||
 		    MEMORY_GROW(list, room, *n + 1))
 			continue;
-		one.bytes = (uint64_t)info.st_size;
-		*bytes += one.bytes;
-		list[(*n)++] = one;
+		*bytes += (uint64_t)info.st_size;
+		list[(*n)++] = frame;
 	}
 	if (all)
 		closedir(all);
 	if (list)
-		qsort(list, *n, sizeof(*list), by_frame);
+		qsort(list, *n, sizeof(*list), by_number);
 	return list;
 }
 
@@ -145,10 +140,10 @@ static void thin_out(const struct pixels *p)
 	char path[PATH_MAX];
 	uint64_t bytes;
 	size_t n;
-	struct one *list = list_own(p, &n, &bytes);
+	uint64_t *list = list_own(p, &n, &bytes);
 
 	for (size_t i = 1; i < n && bytes > MOST_TRACE; i += 2)
-		if (path_of(p, list[i].frame, path))
+		if (path_of(p, list[i], path))
 			unlink(path);
 	free(list);
 }
