@@ -204,13 +204,15 @@ static int keep_pixels(struct replay *rp)
 	struct gls_exec *x = rp->player.exec;
 	struct keeping *k = &rp->keeping;
 	double drawn_s;
-	int rc;
+	int is_settled, rc;
 
-	if (!rp->player.build_all || x->feedback.rewind || x->frame == k->frame || !is_far(k, x->frame))
+	if (!rp->player.build_all || x->feedback.rewind || x->frame == k->frame || !is_far(k, x->frame) ||
+	    !pixels_lacks(&rp->pixels, x->frame))
 		return 1;
-	rc = gls_frame_settle(x) ? have_index(rp, INDEX_KEEP) : x->failed;
+	is_settled = gls_frame_settle(x);
 	drawn_s = progress_clock_s();
-	if (!rc && !x->feedback.rewind)
+	rc = is_settled ? have_index(rp, INDEX_KEEP) : x->failed;
+	if (is_settled && !rc)
 		rc = pixels_keep(&rp->pixels, rp->index, rp->player.reader, x);
 	k->frame_s = (drawn_s - k->since_s) / (double)(x->frame - k->frame);
 	k->since_s = progress_clock_s();

@@ -14,7 +14,6 @@
 #include "base/hash.h"
 #include "base/memory.h"
 #include "base/part.h"
-#include "replay/gl/surface/frames.h"
 #include "replay/index/index_file.h"
 
 #define NAMES "*-*-*.index"               /* as path_of makes them */
@@ -162,16 +161,21 @@ static int write_index(struct index *index, struct trace_reader *reader, struct 
 	return rc || index->file ? rc : 1;
 }
 
+int pixels_lacks(const struct pixels *p, uint64_t frame)
+{
+	char path[PATH_MAX];
+
+	return p->folder && path_of(p, frame, path) && access(path, F_OK) != 0 && folder_try(p->folder) == 0;
+}
+
 int pixels_keep(const struct pixels *p, struct index *base, struct trace_reader *reader, struct gls_exec *x)
 {
 	char path[PATH_MAX], part[PATH_MAX];
 	struct index *index = NULL;
 	int rc;
 
-	if (!p->folder || !path_of(p, x->frame, path) || access(path, F_OK) == 0 || folder_try(p->folder))
+	if (!path_of(p, x->frame, path))
 		return 0;
-	if (!gls_frame_settle(x))
-		return x->failed;
 	rc = index_create(&index, p->path, p->trace);
 	if (!rc)
 		index->base = base;

@@ -19,6 +19,9 @@ struct pixels {
 /** Identifier of the pixels that this build makes on a device. */
 uint64_t pixels_maker(const char *device);
 
+/** Whether a checkpoint may be saved before this frame: there is a folder, and none is in it yet. */
+int pixels_lacks(const struct pixels *p, uint64_t frame);
+
 /** The last frame up to `frame` that has a checkpoint. @return 1; 0: none has */
 int pixels_find(const struct pixels *p, uint64_t frame, uint64_t *found);
 
@@ -30,8 +33,8 @@ int pixels_restore(const struct pixels *p, struct index *base, uint64_t frame, s
                    struct gls_exec *x);
 
 /**
- * Save a checkpoint after a frame that was built, if all its pixels are known and there is room. If the checkpoints of
- * a trace grow too large, every second one is deleted.
+ * Save the checkpoint that pixels_lacks names, after gls_frame_settle and if there is room. If the checkpoints of a
+ * trace grow too large, every second one is deleted.
  * @param base  as in pixels_restore
  * @return 0 or ERR_SYSTEM (reported)
  */

@@ -50,7 +50,7 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
                    uint32_t first, uint32_t count, const uint32_t *elements)
 {
 	struct gls_geometry *g = &x->scratch.geometry;
-	const uint32_t end = (uint32_t)gls_sources_end(s);
+	const uint32_t end = (uint32_t)gls_sources_end(s); /* elements from there on are the same vertex */
 	uint32_t lo = UINT32_MAX, hi = 0, *number, *cut;
 
 	gls_geometry_clear(g);
@@ -68,15 +68,15 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 		return 0;
 	}
 	for (uint32_t i = 0; i < count; i++) {
-		const uint32_t element = elements[i] < end ? elements[i] : end;
-
-		lo = element < lo ? element : lo;
-		hi = element > hi ? element : hi;
-		if (elements[i] >= gls_sources_count(s) && !s->vertex.array->buffer) {
-			gls_unsupported(x, "indices beyond the end of an array");
-			return ERR_INPUT;
-		}
+		lo = elements[i] < lo ? elements[i] : lo;
+		hi = elements[i] > hi ? elements[i] : hi;
 	}
+	if (count && hi >= gls_sources_count(s) && !s->vertex.array->buffer) {
+		gls_unsupported(x, "indices beyond the end of an array");
+		return ERR_INPUT;
+	}
+	lo = lo < end ? lo : end;
+	hi = hi < end ? hi : end;
 	/* Number vertices in order of first use, so that the mesh does not depend on its position in the arrays. */
 	cut = gls_scratch(x, ((size_t)count + (hi - lo) + 1) * sizeof(*cut));
 	if (!cut)

@@ -59,12 +59,11 @@ static uint64_t source_count(const struct gls_source *s)
 	return s->stride ? (s->n - s->element) / s->stride + 1 : UINT32_MAX;
 }
 
-uint64_t gls_sources_count(const struct gls_sources *s)
+/* The most elements that an attribute's array has. */
+static uint64_t longest_attribute(const struct gls_sources *s)
 {
 	uint64_t most = 0;
 
-	if (s->vertex.stride)
-		return source_count(&s->vertex);
 	for (uint32_t present = s->present; present; present &= present - 1) {
 		const uint64_t n = source_count(&s->attributes[__builtin_ctz(present)]);
 
@@ -73,17 +72,16 @@ uint64_t gls_sources_count(const struct gls_sources *s)
 	return most;
 }
 
+uint64_t gls_sources_count(const struct gls_sources *s)
+{
+	return s->vertex.stride ? source_count(&s->vertex) : longest_attribute(s);
+}
+
 uint64_t gls_sources_end(const struct gls_sources *s)
 {
-	uint64_t most = s->vertex.stride ? source_count(&s->vertex) : 0;
+	const uint64_t count = gls_sources_count(s), longest = longest_attribute(s);
 
-	for (uint32_t present = s->present; present; present &= present - 1) {
-		const struct gls_source *attribute = &s->attributes[__builtin_ctz(present)];
-		const uint64_t n = attribute->stride ? source_count(attribute) : 0;
-
-		most = n > most ? n : most;
-	}
-	return most;
+	return count > longest ? count : longest;
 }
 
 /*
