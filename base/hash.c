@@ -66,12 +66,17 @@ int hash_whole(const char *path, uint64_t out[2])
 	return rc;
 }
 
+void hash_text(const uint64_t hash[2], char out[33])
+{
+	snprintf(out, 33, "%016llx%016llx", (unsigned long long)hash[1], (unsigned long long)hash[0]);
+}
+
 int hash_name(const char *path, uint64_t size, char out[33])
 {
 	XXH128_hash_t hash;
 	int rc = digest(path, NAMED_BYTES, &size, sizeof(size), &hash);
 
 	if (!rc)
-		snprintf(out, 33, "%016llx%016llx", (unsigned long long)hash.high64, (unsigned long long)hash.low64);
+		hash_text((const uint64_t[2]){ hash.low64, hash.high64 }, out);
 	return rc;
 }

@@ -8,6 +8,9 @@
 /** The XXH3-128 of bytes: their name in a store that keeps each content once. */
 void hash_bytes(const void *data, size_t n, uint64_t out[2]);
 
+/** The text of a hash: 32 hexadecimal digits, the high half first. */
+void hash_text(const uint64_t hash[2], char out[33]);
+
 /**
  * Name of a trace: XXH3-128 over its first MiB and its size.
  * @param out  receives 32 hex digits

@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 
+#include "base/hash.h"
 #include "base/plural.h"
 #include "scene/tokens.h"
 
@@ -20,20 +21,22 @@ static void write_draw(FILE *out, const struct scene_draw *draw, uint32_t number
 static void write_mesh(FILE *out, const struct scene_mesh *m)
 {
 	static const char *const kinds[] = { "", "point", "line", "triangle" };
+	char hash[33];
 
-	fprintf(out, "mesh %016" PRIx64 "%016" PRIx64 ": %u %s%s%s%s\n", m->hash[1], m->hash[0], m->primitive_count,
-	        kinds[m->kind], plural(m->primitive_count), m->normal ? ", with normals" : "",
-	        m->color ? ", with colours" : "");
+	hash_text(m->hash, hash);
+	fprintf(out, "mesh %s: %u %s%s%s%s\n", hash, m->primitive_count, kinds[m->kind], plural(m->primitive_count),
+	        m->normal ? ", with normals" : "", m->color ? ", with colours" : "");
 }
 
 static void write_texture(FILE *out, const struct scene *s, const struct scene_unit *u)
 {
 	const struct scene_texture *t = s->textures[u->texture];
 	char target[TOKEN_NAME_BYTES], format[TOKEN_NAME_BYTES], mode[TOKEN_NAME_BYTES], made[TOKEN_NAME_BYTES];
+	char hash[33];
 
-	fprintf(out, "texture %016" PRIx64 "%016" PRIx64 ": unit %u, %u x %u, %s %s, %s", t->hash[1], t->hash[0],
-	        u->unit, t->width, t->height, token_name(t->target, target), token_name(t->base_format, format),
-	        token_name(u->env_mode, mode));
+	hash_text(t->hash, hash);
+	fprintf(out, "texture %s: unit %u, %u x %u, %s %s, %s", hash, u->unit, t->width, t->height,
+	        token_name(t->target, target), token_name(t->base_format, format), token_name(u->env_mode, mode));
 	if (u->gen_mode[0])
 		fprintf(out, ", coordinates by %s", token_name(u->gen_mode[0], made));
 	fputc('\n', out);

@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 
+#include "base/hash.h"
 #include "base/json.h"
 #include "base/plural.h"
 #include "scene/tokens.h"
@@ -282,7 +283,7 @@ static void write_hash(struct json *j, const uint64_t hash[2])
 {
 	char text[33];
 
-	snprintf(text, sizeof(text), "%016" PRIx64 "%016" PRIx64, hash[1], hash[0]);
+	hash_text(hash, text);
 	json_key_string(j, "hash", text);
 }
 

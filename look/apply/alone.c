@@ -1,9 +1,9 @@
 #include "look/apply/alone.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 
 #include "base/err.h"
+#include "base/hash.h"
 #include "look/apply/match.h"
 
 /* Bits for the keys that a candidate combines. */
@@ -11,7 +11,10 @@ enum { TEXTURE = 1, MESH = 2, LIST = 4, DRAWS = 8 };
 
 static void write_hash(const char *key, const uint64_t hash[2], char *out, size_t size)
 {
-	snprintf(out, size, "%s: \"%016" PRIx64 "%016" PRIx64 "\", ", key, hash[1], hash[0]);
+	char text[33];
+
+	hash_text(hash, text);
+	snprintf(out, size, "%s: \"%s\", ", key, text);
 }
 
 static void write_keys(const struct scene *scene, const struct scene_instance *in, int which, char keys[ALONE_BYTES])

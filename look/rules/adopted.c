@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/hash.h"
 #include "look/rules/schema.h"
 
 static const cyaml_schema_field_t *field_of(const cyaml_schema_field_t *fields, const char *key)
@@ -46,7 +47,7 @@ static void *value_of(const struct finding_value *v)
 	case FINDING_TRUTH: return copy(&(bool){ v->count != 0 }, sizeof(bool));
 	case FINDING_COUNT: return copy(&(uint32_t){ (uint32_t)v->count }, sizeof(uint32_t));
 	case FINDING_NUMBERS: return numbers_of(v);
-	case FINDING_HASH: finding_print_hash(v->hash, hash); return strdup(hash);
+	case FINDING_HASH: hash_text(v->hash, hash); return strdup(hash);
 	case FINDING_WORD: return strdup(v->word);
 	default: return strdup(v->text);
 	}

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "base/err.h"
+#include "base/hash.h"
 #include "base/memory.h"
 
 /* The tests of a match are broken after TESTS_BEFORE_BREAK if there are more than fit in a line. */
@@ -67,16 +68,14 @@ static void drop_texts(struct finding *f)
 
 struct finding *findings_add(struct findings *findings, enum findings_list list, const char *role, ...)
 {
-	struct finding *f = &findings->lost;
-	int err = MEMORY_GROW(findings->list, findings->room, findings->n + 1);
+	const int err = MEMORY_GROW(findings->list, findings->room, findings->n + 1);
+	struct finding *f = err ? &findings->lost : &findings->list[findings->n++];
 	va_list args;
 
-	if (err)
+	if (err) {
 		findings->err = err;
-	else
-		f = &findings->list[findings->n++];
-	if (err)
 		drop_texts(f);
+	}
 	f->list = list;
 	f->n = 0;
 	va_start(args, role);
@@ -138,11 +137,6 @@ void finding_print_number(const struct finding_value *v, unsigned i, char out[64
 		snprintf(out, 64, "%.*g", v->digits, v->numbers[i]);
 }
 
-void finding_print_hash(const uint64_t hash[2], char out[33])
-{
-	snprintf(out, 33, "%016" PRIx64 "%016" PRIx64, hash[1], hash[0]);
-}
-
 static void write_value(const struct finding_value *v, FILE *out)
 {
 	char text[64];
@@ -157,7 +151,7 @@ static void write_value(const struct finding_value *v, FILE *out)
 	if (v->type == FINDING_QUOTED)
 		fprintf(out, "\"%s\"", v->text);
 	if (v->type == FINDING_HASH) {
-		finding_print_hash(v->hash, text);
+		hash_text(v->hash, text);
 		fprintf(out, "\"%s\"", text);
 	}
 	if (v->type != FINDING_NUMBERS)

@@ -113,9 +113,6 @@ int findings_check(const struct findings *findings);
 /** The text of a number in the file. @param i  index in value->numbers */
 void finding_print_number(const struct finding_value *value, unsigned i, char out[64]);
 
-/** The text of a hash: 32 hexadecimal digits. */
-void finding_print_hash(const uint64_t hash[2], char out[33]);
-
 /** Write the file. @param trace  the recording's name, for a comment */
 void findings_write(const struct findings *findings, const char *trace, FILE *out);
 void findings_free(struct findings *findings);

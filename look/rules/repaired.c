@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "gl_tokens.h"
 #include "look/draws/modelview.h"
@@ -75,16 +76,16 @@ int repaired_wants(const struct repair_rule *rule, const struct scene *scene, co
 static void warn(struct repaired *s, const struct scene_mesh *mesh, const struct repair_found *found)
 {
 	const float *at = found->leak_at;
+	char hash[33];
 
 	s->n_leaking += found->leaks > 0;
 	if (found->leaks && s->n_leaking == MOST_WARNINGS + 1)
 		err_warn(NULL, "more meshes leak light; attributes relume:rule.N of the frames list them");
+	hash_text(mesh->hash, hash);
 	if (found->leaks && s->n_leaking <= MOST_WARNINGS)
 		err_warn(NULL,
-		         "mesh %016llx%016llx still leaks light at %u edges after its repair, the longest about %g %g "
-		         "%g (object space)",
-		         (unsigned long long)mesh->hash[1], (unsigned long long)mesh->hash[0], found->leaks,
-		         (double)at[0], (double)at[1], (double)at[2]);
+		         "mesh %s still leaks light at %u edges after its repair, the longest about %g %g %g (object space)",
+		         hash, found->leaks, (double)at[0], (double)at[1], (double)at[2]);
 }
 
 static const struct entry *find(const struct repaired *s, const struct scene_mesh *mesh,

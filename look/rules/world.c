@@ -1,10 +1,10 @@
 #include "look/rules/world.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "base/mat4.h"
 #include "look/rules/rules.h"
 
@@ -14,7 +14,7 @@ int world_hash_begins(const uint64_t hash[2], const char *text)
 {
 	char whole[33];
 
-	snprintf(whole, sizeof(whole), "%016" PRIx64 "%016" PRIx64, hash[1], hash[0]);
+	hash_text(hash, whole);
 	return strncmp(whole, text, strlen(text)) == 0;
 }
 

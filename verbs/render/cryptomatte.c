@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "base/table.h"
 #include "scene/drawn.h"
@@ -75,7 +76,7 @@ static void name_object(const struct scene *scene, enum kind kind, uint32_t draw
 	if (kind == DRAWS)
 		snprintf(name, 64, "draw %u", draw);
 	else if (hash)
-		snprintf(name, 64, "%016llx%016llx", (unsigned long long)hash[1], (unsigned long long)hash[0]);
+		hash_text(hash, name);
 	else
 		snprintf(name, 64, "%s", kind == TEXTURES ? "untextured" : "no mesh");
 }

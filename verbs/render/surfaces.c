@@ -1,6 +1,5 @@
 #include "verbs/render/surfaces.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +7,7 @@
 #include "base/base64.h"
 #include "base/err.h"
 #include "base/folder.h"
+#include "base/hash.h"
 #include "base/json.h"
 #include "base/part.h"
 #include "gl_tokens.h"
@@ -141,7 +141,7 @@ static void write_hash(struct page *p, const uint64_t hash[2])
 {
 	char text[33];
 
-	snprintf(text, sizeof(text), "%016" PRIx64 "%016" PRIx64, hash[1], hash[0]);
+	hash_text(hash, text);
 	json_key_string(&p->json, "hash", text);
 }
 
