@@ -49,8 +49,8 @@ RECORDER_OBJ := $(RECORDER_SRC:%.c=$(BUILD)/recorder/%.o) \
 VISUAL_SRC := verbs/recording/visual.c
 REPLAY_SRC := $(wildcard replay/*.c replay/*/*.c replay/*/*/*.c)
 COMMAND_SRC := relume.c $(REPLAY_SRC) $(wildcard $(patsubst %,%/*.c, \
-	base capture capture/format ci scene scene/repair look/* look/*/* kernels/ref tracer/*) diff/*.c diff/*/*.c) \
-	$(filter-out $(VISUAL_SRC),$(wildcard verbs/*/*.c verbs/*/*/*.c))
+	base capture capture/format ci scene scene/repair look/* look/*/* kernels/ref tracer/* tracer/frame/*) diff/*.c \
+	diff/*/*.c) $(filter-out $(VISUAL_SRC),$(wildcard verbs/*/*.c verbs/*/*/*.c))
 COMMAND_GEN := $(patsubst %,$(BUILD)/gen/%.c,kernels commands handlers page manual surfaces)
 COMMAND_OBJ := $(COMMAND_SRC:%.c=$(BUILD)/%.o) $(COMMAND_GEN:.c=.o)
 
@@ -139,7 +139,7 @@ $(BUILD)/gen/%.o: $(BUILD)/gen/%.c $(BUILD)/flags
 	$(Q)$(CC) $(CPPFLAGS) $(ALL_CFLAGS) -c -o $@ $<
 
 # Kernels are embedded in the command as text.
-KERNELS := $(wildcard kernels/*/*.cl)
+KERNELS := $(wildcard kernels/*/*.cl kernels/*/*/*.cl)
 HOST_TEXTS := kernels/ref/host_builtins.h kernels/ref/hook_host.h # hooks of the reference device: tracer/hook/host.h
 $(BUILD)/gen/kernels.c: kernels/embed.py $(KERNELS) $(HOST_TEXTS) | $(GENERATED_H)
 	@mkdir -p $(@D)

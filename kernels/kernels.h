@@ -199,7 +199,7 @@ typedef float element_float;
 	/* from layered_shadow, for the kernels of paths */ \
 	OUT(fragment, list) AND() OUT(uint, list_pixels) AND() OUT(shaded, list_shaded)
 
-/* Plain frames: kernels/frame/plain.h. */
+/* Plain frames: kernels/frame/plain/plain.h. */
 #define ARGUMENTS_plain(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() \
 	IN(fragment, sparse) AND()          /* one per pixel of the band, at its place in the rectangle */ \
@@ -251,7 +251,7 @@ typedef float element_float;
 	OUT(fragment, alone) AND() OUT(uint, pixels) AND() OUT(shaded, shaded) AND() \
 	OUT(half, halves) AND() OUT(float, floats)
 
-/* Rays to lights and into the surroundings: kernels/frame/shadow.h. */
+/* Rays to lights and into the surroundings: kernels/frame/light/shadow.h. */
 #define ARGUMENTS_shadow_ray(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
 	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(uint, sample) AND() \
@@ -293,7 +293,7 @@ typedef float element_float;
 	IN(float, visibility) AND() VALUE(uint, over_gl) AND() VALUE(uint, n) AND() \
 	OUT(shaded, shaded)                 /* also read */
 
-/* Light from all around: kernels/frame/dome.h. */
+/* Light from all around: kernels/frame/dome/dome.h. */
 #define ARGUMENTS_dome_find(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
 	IN(uint, pixels) AND() VALUE(uint, width) AND() IN(shaded, shaded) AND() VALUE(scene_dome, dome) AND() \
@@ -321,7 +321,7 @@ typedef float element_float;
 	OUT(shaded, shaded) AND()           /* also read */ \
 	OUT(float, factors)                 /* [3][n]: factors of colours, 1 where the dome's light does not apply */
 
-/* Emissive surfaces: kernels/frame/emitter.h. */
+/* Emissive surfaces: kernels/frame/light/emitter.h. */
 #define ARGUMENTS_emission(IN, OUT, VALUE, GROUP, AND) \
 	IN(emitter, emitters) AND() VALUE(uint, emitter_first) AND() \
 	VALUE(uint, n_emitters) AND()       /* 0: emitters is any buffer */ \
@@ -338,7 +338,7 @@ typedef float element_float;
 	VALUE(uint, first) AND()            /* index of their first ray in out */ \
 	VALUE(uint, n) AND() OUT(ray, out)
 
-/* Paths: kernels/frame/path.h. */
+/* Paths: kernels/frame/light/path.h. */
 #define ARGUMENTS_leave(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(window_vertex, windows) AND() IN(fragment, fragments) AND() \
 	IN(uint, pixels) AND() VALUE(uint, width) AND() VALUE(uint, transport) AND() VALUE(uint, sample) AND() \
@@ -382,7 +382,7 @@ typedef float element_float;
 	OUT(ray, next_rays) AND()           /* PATHS_PER_HIT per path */ \
 	OUT(path, next_paths) AND() OUT(uint, counts)
 
-/* Hooks: kernels/frame/hook.h. */
+/* Hooks: kernels/frame/hook/hook.h. */
 #define ARGUMENTS_hook_trees(IN, OUT, VALUE, GROUP, AND) /* binary trees of an eye space */ \
 	VALUE(uint, top_first) AND()        /* accel_space.top2_first; SCENE_NONE: the space is empty */ \
 	IN(node2, top) AND() IN(uint, instance_list) AND() IN(instance, instances) AND() IN(node2, nodes)
@@ -460,7 +460,7 @@ typedef float element_float;
 	VALUE(uint, alone) AND() VALUE(uint, n) AND() \
 	OUT(uint, occluded)                 /* also read */
 
-/* Prefix sums: kernels/frame/scan.h. */
+/* Prefix sums: kernels/frame/stages/scan.h. */
 #define ARGUMENTS_scan_sum(IN, OUT, VALUE, GROUP, AND) \
 	IN(uint, counts) AND() VALUE(uint, n) AND() VALUE(uint, full) AND() OUT(uint, sums)
 #define ARGUMENTS_scan_place(IN, OUT, VALUE, GROUP, AND) \

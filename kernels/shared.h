@@ -302,7 +302,7 @@ struct path {
 };
 SHARED_SIZE(struct path, 32);
 
-/* A meeting of light that mirrors and glass redirected with a surface that receives it (kernels/frame/photon.h). */
+/* Light that mirrors and glass redirected meets a surface that receives it (kernels/frame/light/photon.h). */
 struct photon {
 	float position[3], length;    /* eye space; of its whole path from the light */
 	float direction[3];           /* unit direction of travel on arrival */
@@ -341,7 +341,7 @@ struct query_contact {
 };
 SHARED_SIZE(struct query_contact, 8);
 
-/* A hook's answer for a fragment: kernels/frame/hook.h. */
+/* A hook's answer for a fragment: kernels/frame/hook/hook.h. */
 struct hook_answer {
 	float color[3], direction[3], weight[3]; /* direction, weight: those of the ray that continues */
 	uint32_t what;                           /* bits: RELUME_* */
@@ -394,7 +394,7 @@ struct camera_rectangle {
 	int32_t x0, y0, x1, y1;
 };
 
-/* A depth clear between looks (kernels/frame/plain.h), limited to a rectangle of the band. */
+/* A depth clear between looks (kernels/frame/plain/plain.h), limited to a rectangle of the band. */
 struct layer_clear {
 	uint32_t look; /* the look that follows it */
 	int32_t x0, y0, x1, y1;
@@ -426,7 +426,7 @@ SHARED_SIZE(struct frame_pixel, 124);
 
 /*
  * Planes of a finished picture, as the kernel compose writes them, top row first: some as halves, the others as floats.
- * tracer/frame/compose.c names them.
+ * tracer/frame/picture/compose.c names them.
  */
 #define COMPOSE_BEAUTY 0u /* R G B A */
 #define COMPOSE_GL 4u     /* R G B A */
@@ -471,8 +471,8 @@ static inline uint32_t frame_columns(uint32_t width)
 }
 
 /* Fragments per work item of shade_packet, and rays per work item of shadow_ray_packet: in frames with one fragment per
- * pixel, a block of the list (tracer/frame/segment.c). Also the number of triangles that a work item caches by number,
- * as neighbours mostly have close numbers. */
+ * pixel, a block of the list (tracer/frame/bands/segment.c). Also the number of triangles that a work item caches by
+ * number, as neighbours mostly have close numbers. */
 #define SHADE_PACKET 64u
 #define SHADE_TRIANGLES 8u
 

@@ -1,4 +1,4 @@
-/* Defines the words of one_lanes.h for sixteen lanes. OpenCL C only, after frame/pack_vector.h. */
+/* Defines the words of one_lanes.h for sixteen lanes. OpenCL C only, after frame/pack/pack_vector.h. */
 #include "kernels/no_lanes.h"
 
 #define LANES WIDE_VECTORS static inline __attribute__((overloadable))

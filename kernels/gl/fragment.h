@@ -107,8 +107,8 @@ static inline void point_keep_nothing(struct point_kept *kept)
 		kept->quad[i] = SCENE_NONE;
 }
 
-/* A line, given by its ends, which its corners carry (tracer/frame/expand_line.c): x, y from the top, depth, 1 at the
- * second end. */
+/* A line, given by its ends, which its corners carry (tracer/frame/prepare/expand_line.c): x, y from the top, depth, 1
+ * at the second end. */
 struct point_line {
 	struct vec4 a, b;
 	int second[3]; /* 1 for corners at the second end */

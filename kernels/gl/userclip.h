@@ -87,7 +87,7 @@ static inline uint32_t userclip_begin(GLOBAL const struct view *view, GLOBAL con
 
 /*
  * 1 if the planes clip away a fragment's triangle at a pixel. Lines and points are clipped when they are made into
- * triangles (tracer/frame/expand.c).
+ * triangles (tracer/frame/prepare/expand.c).
  *
  * x, y  the pixel, y from the bottom
  */

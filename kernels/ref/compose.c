@@ -1,5 +1,5 @@
-/* C twins of kernels/frame/compose.cl and compose_packet.cl. */
-#include "kernels/frame/compose.h"
+/* C twins of kernels/frame/stages/compose.cl and compose_packet.cl. */
+#include "kernels/frame/stages/compose.h"
 
 KERNEL_TWIN(compose, n)
 

@@ -1,5 +1,5 @@
-/* C twins of kernels/frame/dome.cl and dome_packet.cl. */
-#include "kernels/frame/dome.h"
+/* C twins of kernels/frame/dome/dome.cl and dome_packet.cl. */
+#include "kernels/frame/dome/dome.h"
 
 KERNEL_TWIN(dome_find, n)
 KERNEL_TWIN(dome_sum, n)

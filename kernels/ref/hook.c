@@ -1,6 +1,6 @@
-/* C twins of kernels/frame/hook.cl, without hooks. */
-#include "kernels/frame/hook.h"
-#include "kernels/frame/hook_object.h"
+/* C twins of kernels/frame/hook/hook.cl, without hooks. */
+#include "kernels/frame/hook/hook.h"
+#include "kernels/frame/hook/hook_object.h"
 
 KERNEL_TWIN(hook_ray, n)
 KERNEL_TWIN(hook_see, n)

@@ -4,8 +4,8 @@
  */
 #pragma once
 
-#include "kernels/frame/hook.h"
-#include "kernels/frame/hook_object.h"
+#include "kernels/frame/hook/hook.h"
+#include "kernels/frame/hook/hook_object.h"
 #include "kernels/ref/take.h"
 
 KERNEL_GROUPS(TAKE_GROUP_LIST)

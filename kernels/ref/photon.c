@@ -1,4 +1,4 @@
-/* C twin of kernels/frame/photon.cl. */
-#include "kernels/frame/photon.h"
+/* C twin of kernels/frame/light/photon.cl. */
+#include "kernels/frame/light/photon.h"
 
 KERNEL_TWIN(photon, n)

@@ -1,11 +1,11 @@
-/* C twins of kernels/frame/plain.cl, plain_single.cl and layered.cl: each pixel in turn goes through the steps of
+/* C twins of kernels/frame/plain/plain.cl, plain_single.cl and layered.cl: each pixel in turn goes through the steps of
  * frames that are not plain. */
-#include "kernels/frame/plain.h"
+#include "kernels/frame/plain/plain.h"
 
 #include <string.h>
 
-#include "kernels/frame/compose.h"
-#include "kernels/frame/dome.h"
+#include "kernels/frame/stages/compose.h"
+#include "kernels/frame/dome/dome.h"
 #include "kernels/gl/program.h"
 
 /* Compose a pixel of the band. */

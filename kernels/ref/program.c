@@ -1,4 +1,4 @@
-/* C twins of kernels/frame/program.cl. */
+/* C twins of kernels/frame/stages/program.cl. */
 #include "kernels/gl/program.h"
 
 void program_c(const struct shade_arguments *a, size_t first, size_t last)

@@ -1,4 +1,4 @@
-/* C twins of kernels/frame/resolve.cl and resolve_packet.cl. */
+/* C twins of kernels/frame/stages/resolve.cl and resolve_packet.cl. */
 #include "kernels/gl/stages.h"
 
 KERNEL_TWIN(clear, n)

@@ -1,5 +1,5 @@
-/* C twins of kernels/frame/scan.cl. */
-#include "kernels/frame/scan.h"
+/* C twins of kernels/frame/stages/scan.cl. */
+#include "kernels/frame/stages/scan.h"
 #include "kernels/kernels.h"
 
 void scan_sum_c(const struct scan_sum_arguments *a, size_t first, size_t last)

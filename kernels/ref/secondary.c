@@ -1,5 +1,5 @@
-/* C twins of kernels/frame/secondary.cl, secondary_packet.cl and shadow_packet.cl. */
-#include "kernels/frame/path.h"
+/* C twins of kernels/frame/light/secondary.cl, secondary_packet.cl and shadow_packet.cl. */
+#include "kernels/frame/light/path.h"
 
 void shadow_ray_c(const struct shadow_ray_arguments *a, size_t first, size_t last)
 {

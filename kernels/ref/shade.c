@@ -1,4 +1,4 @@
-/* C twins of kernels/frame/shade.cl and shade_packet.cl. */
+/* C twins of kernels/frame/stages/shade.cl and shade_packet.cl. */
 #include "kernels/gl/stages.h"
 
 KERNEL_TWIN(gather, n)

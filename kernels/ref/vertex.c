@@ -1,4 +1,4 @@
-/* C twins of kernels/frame/vertex.cl, vertex_packet.cl and window.cl. */
+/* C twins of kernels/frame/stages/vertex.cl, vertex_packet.cl and window.cl. */
 #include "kernels/gl/vertex.h"
 
 KERNEL_TWIN(vertex, n)

@@ -1,4 +1,4 @@
-/* C twin of kernels/frame/vertex_program.cl. */
+/* C twin of kernels/frame/stages/vertex_program.cl. */
 #include "kernels/gl/vertex_program.h"
 
 KERNEL_TWIN(vertex_program, n)

@@ -68,7 +68,7 @@ static int show(const double corner[4], const double edge[2][4], double u, doubl
 	return 1;
 }
 
-/* Point k of n evenly distributed points in a triangle (like the plain samples of kernels/frame/sample.h). */
+/* Point k of n evenly distributed points in a triangle (like the plain samples of kernels/frame/light/sample.h). */
 static void point_of(uint32_t k, double *u, double *v)
 {
 	*u = fmod(0.5 + k * 0.75487766624669276, 1);

@@ -17,7 +17,7 @@
 /* The sum of a closed body's cross products is at most this share of their lengths; corners computed twice differ by
  * rounding. */
 #define CLOSED 1e-6
-/* Normals this nearly parallel to a triangle do not determine its sides: as in kernels/frame/transparency.h. */
+/* Normals this nearly parallel to a triangle do not determine its sides: as in kernels/frame/light/transparency.h. */
 #define ACROSS 1e-3
 
 static enum sides_shown shown_of(const struct scene_material *m)

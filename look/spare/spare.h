@@ -16,7 +16,7 @@
  *   carved       Draws that show a part of a body alone block no light (carved.h).
  *   cards        Crossed cut-out cards do not shade each other.
  *   terminator   Flat faces with smooth normals do not block light at grazing angles. This one is done by the
- *                kernels (kernels/frame/shadow.h).
+ *                kernels (kernels/frame/light/shadow.h).
  *
  * All decisions use the geometry of the whole frame, hidden surfaces included, so that they change little as the
  * camera moves.

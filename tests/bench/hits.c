@@ -30,7 +30,7 @@
 
 #include "base/err.h"
 #include "kernels/rays/rays.h"
-#include "tracer/frame/traverse.h"
+#include "tracer/frame/common/traverse.h"
 #include "verbs/render/bench/bench.h"
 
 #define ROUNDING 32

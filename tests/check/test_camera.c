@@ -4,7 +4,7 @@
 #include "kernels/camera/camera.h"
 #include "tests/case.h"
 #include "tests/driver.h"
-#include "tracer/frame/traverse.h"
+#include "tracer/frame/common/traverse.h"
 
 #define WIDTH 75 /* not a multiple of a tile */
 #define HEIGHT 53

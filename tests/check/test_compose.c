@@ -9,7 +9,7 @@
 #include <string.h>
 
 #include "kernels/gl/tables.h"
-#include "kernels/frame/compose.h"
+#include "kernels/frame/stages/compose.h"
 #include "tests/case.h"
 #include "tests/check/on_devices.h"
 #include "tracer/device/launch.h"

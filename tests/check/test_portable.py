@@ -29,7 +29,7 @@ if not clang:
     print("no clang here: kernels are not compiled for other targets")
     sys.exit(77)
 failed = 0
-files = sorted((ROOT / "kernels").glob("*/*.cl"))
+files = sorted((ROOT / "kernels").glob("*/**/*.cl"))
 with tempfile.TemporaryDirectory() as folder:
     for target in TARGETS:
         for file in files:

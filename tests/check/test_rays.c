@@ -4,7 +4,7 @@
 #include "kernels/rays/rays.h"
 #include "tests/case.h"
 #include "tests/driver.h"
-#include "tracer/frame/traverse.h"
+#include "tracer/frame/common/traverse.h"
 
 #define N_RAYS 4099 /* not a multiple of a packet */
 #define GUARD 64

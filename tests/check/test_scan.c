@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernels/frame/scan.h"
+#include "kernels/frame/stages/scan.h"
 #include "tests/case.h"
 #include "tests/driver.h"
-#include "tracer/frame/scan.h"
+#include "tracer/frame/light/scan.h"
 
 #define MOST (SCAN_CHUNK * SCAN_CHUNK * SCAN_CHUNK + 3)
 #define GUARD 16

@@ -7,10 +7,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "kernels/frame/scan.h"
+#include "kernels/frame/stages/scan.h"
 #include "tests/case.h"
 #include "tests/driver.h"
-#include "tracer/frame/scan.h"
+#include "tracer/frame/light/scan.h"
 
 #define QUEUES 8
 #define LAUNCHES 250u

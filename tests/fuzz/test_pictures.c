@@ -11,7 +11,7 @@
 #include "tests/fuzz/calls.h"
 #include "tests/fuzz/kept.h"
 #include "verbs/render/supply.h"
-#include "tracer/frame/picture_kept.h"
+#include "tracer/frame/common/picture_kept.h"
 
 #define N_PARTS 13
 #define N_RANDOM 8

@@ -1,7 +1,8 @@
 /*
- * Frames of several looks (kernels/frame/plain.h): overlapping walls in a lit room, with all blend factors, all alpha
- * and depth functions and write masks; and a second projection over them. From frame 5 on colours are not cleared: the
- * old picture is covered by a sky, or shows; frame 8 copies its own picture so far. Recorded by test_layers.py.
+ * Frames of several looks (kernels/frame/plain/plain.h): overlapping walls in a lit room, with all blend factors, all
+ * alpha and depth functions and write masks; and a second projection over them. From frame 5 on colours are not
+ * cleared: the old picture is covered by a sky, or shows; frame 8 copies its own picture so far. Recorded by
+ * test_layers.py.
  */
 #include "tests/trace/window.h"
 

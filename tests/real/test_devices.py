@@ -70,7 +70,7 @@ done = subprocess.run([RELUME, "render", trace, "-f", "0", "-o", SCRATCH / "slow
                       env=fake(SLOW_BUILD="1"), stderr=end, stdin=subprocess.DEVNULL, timeout=150, check=False)
 os.close(end)
 said = os.read(terminal, 65536).decode()
-check(done.returncode == 0 and re.search(r"compiling kernels for this device, once: kernels/\w+/\w+_packet.cl", said),
+check(done.returncode == 0 and re.search(r"compiling kernels for this device, once: kernels/[\w/]+_packet.cl", said),
       f"slow to compile: {said}")
 for style, lines in (("lines", 1), ("none", 0)): # printed once if there is no progress bar
     done = relume("render", trace, "-f", "0", "-o", SCRATCH / "slow.#.exr", "--no-cache", "--mode", "gl", "--progress",

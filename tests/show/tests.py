@@ -43,8 +43,8 @@ from table import Shown  # noqa: E402
 SEED, BAR, SLOW_S = 1, 0.95, 20
 PASSED, FAILED, SKIPPED = range(3)
 FOLDERS = {
-    "kernels": ("kernels/*.h", "kernels/camera/*.h", "kernels/gl/*.h", "kernels/frame/[!p]*.h",
-                "kernels/frame/p[!a]*.h", "kernels/ref/*.c"), "replay": ("replay/**/*.c", "verbs/recording/*.c"),
+    "kernels": ("kernels/*.h", "kernels/camera/*.h", "kernels/gl/*.h", "kernels/frame/[!p]*/*.h",
+                "kernels/frame/plain/*.h", "kernels/ref/*.c"), "replay": ("replay/**/*.c", "verbs/recording/*.c"),
     "tracer": ("tracer/**/*.c", ), "capture": ("capture/**/*.c", ), "diff": ("diff/**/*.c", )
 }
 LEFT_OUT = ("unit/test_house", "harness/", "farm/", "real/test_page", "real/test_wine", "real/test_i386",

@@ -1,4 +1,4 @@
-/* A wall that receives light only through mirrors and glass (tracer/frame/photons.h). */
+/* A wall that receives light only through mirrors and glass (tracer/frame/light/photons.h). */
 #pragma once
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /*
- * A glass ball's light (tracer/frame/photons.h) against a path tracer for this one scene, which works backwards from
- * the wall with formulas instead of triangles. RELUME_CAUSTICS_SAMPLES sets its number of paths per pixel.
+ * A glass ball's light (tracer/frame/light/photons.h) against a path tracer for this one scene, which works backwards
+ * from the wall with formulas instead of triangles. RELUME_CAUSTICS_SAMPLES sets its number of paths per pixel.
  */
 #include "tests/case.h"
 #include "tests/truth/caustics.h"

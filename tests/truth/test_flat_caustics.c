@@ -1,4 +1,4 @@
-/* Light through flat mirrors and glass (tracer/frame/photons.h), in closed form. */
+/* Light through flat mirrors and glass (tracer/frame/light/photons.h), in closed form. */
 #include "tests/case.h"
 #include "tests/truth/caustics.h"
 

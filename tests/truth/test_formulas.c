@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "kernels/frame/compose.h"
+#include "kernels/frame/stages/compose.h"
 #include "kernels/gl/stages.h"
 #include "tests/case.h"
 

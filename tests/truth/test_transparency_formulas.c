@@ -1,9 +1,9 @@
 /* Transmission of light through surfaces at known values: glass by Fresnel's equations and absorption, stipple;
- * kernels/frame/transparency.h. */
+ * kernels/frame/light/transparency.h. */
 #include <math.h>
 #include <string.h>
 
-#include "kernels/frame/transparency.h"
+#include "kernels/frame/light/transparency.h"
 #include "tests/case.h"
 
 /* A triangle in the plane z = -4 that faces the eye; a ray hits its middle, from the front or from the back, with

@@ -3,7 +3,7 @@
 #include <half.h>
 #include <math.h>
 
-#include "kernels/frame/compose.h"
+#include "kernels/frame/stages/compose.h"
 #include "tests/case.h"
 #include "tracer/image/image.h"
 

@@ -1,6 +1,7 @@
 /*
- * Lines, points and polygon outlines as quads in the window (tracer/frame/expand.h; GL 2.1 sec. 3.3, 3.4, 3.5.4,
- * 3.5.5): position, attributes, clipping. The last bits, which follow llvmpipe, are compared by real/test_shapes.
+ * Lines, points and polygon outlines as quads in the window (tracer/frame/prepare/expand.h; GL 2.1 sec. 3.3, 3.4,
+ * 3.5.4, 3.5.5): position, attributes, clipping. The last bits, which follow llvmpipe, are compared by
+ * real/test_shapes.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -9,7 +10,7 @@
 #include "gl_tokens.h"
 #include "scene/mesa.h"
 #include "tests/case.h"
-#include "tracer/frame/expand.h"
+#include "tracer/frame/prepare/expand.h"
 
 enum { SIDE = 64 };
 

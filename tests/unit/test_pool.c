@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "tests/case.h"
-#include "tracer/frame/pool.h"
+#include "tracer/frame/common/pool.h"
 
 #define N_SMALL 500
 #define MANY_WORDS 600000 /* more than a pool writes at once */

@@ -52,7 +52,7 @@ struct around {
 
 static struct around around_of(const struct kernel_file *kernels, const struct hook *hook)
 {
-	if (!hook || strcmp(kernels->name, "kernels/frame/hook.cl") != 0)
+	if (!hook || strcmp(kernels->name, "kernels/frame/hook/hook.cl") != 0)
 		return (struct around){ "", "", kernels->name };
 	return (struct around){ hook->declarations, hook->text, hook->path };
 }

@@ -6,24 +6,24 @@
 #include "base/err.h"
 #include "base/progress.h"
 #include "kernels/camera/camera.h"
-#include "kernels/frame/sample.h"
+#include "kernels/frame/light/sample.h"
 #include "scene/before.h"
-#include "tracer/frame/compose.h"
-#include "tracer/frame/emitters.h"
-#include "tracer/frame/ended.h"
-#include "tracer/frame/expand.h"
-#include "tracer/frame/geometry.h"
-#include "tracer/frame/hook_objects.h"
-#include "tracer/frame/hook_rays.h"
-#include "tracer/frame/hooks.h"
-#include "tracer/frame/layered.h"
-#include "tracer/frame/noise.h"
-#include "tracer/frame/photons.h"
-#include "tracer/frame/picture.h"
-#include "tracer/frame/plain.h"
-#include "tracer/frame/secondary.h"
-#include "tracer/frame/segment.h"
-#include "tracer/frame/upload.h"
+#include "tracer/frame/bands/hook_rays.h"
+#include "tracer/frame/bands/layered.h"
+#include "tracer/frame/bands/plain.h"
+#include "tracer/frame/bands/segment.h"
+#include "tracer/frame/hook/hook_objects.h"
+#include "tracer/frame/hook/hooks.h"
+#include "tracer/frame/light/emitters.h"
+#include "tracer/frame/light/photons.h"
+#include "tracer/frame/light/secondary.h"
+#include "tracer/frame/picture/compose.h"
+#include "tracer/frame/picture/ended.h"
+#include "tracer/frame/picture/noise.h"
+#include "tracer/frame/picture/picture.h"
+#include "tracer/frame/place/geometry.h"
+#include "tracer/frame/place/upload.h"
+#include "tracer/frame/prepare/expand.h"
 
 int tracer_create(struct tracer **out, struct device *dev)
 {
@@ -79,6 +79,19 @@ void tracer_share(struct tracer *tracer, struct blas_cache *cache)
 const struct tracer_undrawn *tracer_undrawn(const struct tracer *tracer)
 {
 	return &tracer->undrawn;
+}
+
+const struct tracer_added *tracer_added(const struct tracer *tracer)
+{
+	return &tracer->added;
+}
+
+void tracer_added_add(struct tracer_added *sum, const struct tracer_added *now, const struct tracer_added *before)
+{
+	sum->pixels += now->pixels - before->pixels;
+	sum->changed += now->changed - before->changed;
+	for (int i = 0; i < N_TRACER_PARTS; i++)
+		sum->parts[i] += now->parts[i] - before->parts[i];
 }
 
 int tracer_check_aov(const char *aov)

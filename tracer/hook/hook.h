@@ -1,6 +1,6 @@
 /*
  * A user's hook: OpenCL C source whose functions replace stages of the wavefront. corpus/hooks/README.md documents it
- * for authors of hooks; kernels/frame/hook.h calls the functions.
+ * for authors of hooks; kernels/frame/hook/hook.h calls the functions.
  *
  * Parameters are declared in the source, one per line, and set by rules (look/rules/rules.h):
  *

@@ -10,7 +10,7 @@
 #include "replay/replay.h"
 #include "scene/release.h"
 #include "tracer/device/outcome.h"
-#include "tracer/frame/traverse.h"
+#include "tracer/frame/common/traverse.h"
 #include "verbs/query/soup.h"
 
 #define BATCH 262144u /* queries of a launch; fewer where a ray has many hits */

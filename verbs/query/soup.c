@@ -6,7 +6,7 @@
 
 #include "base/err.h"
 #include "base/memory.h"
-#include "tracer/frame/prepare.h"
+#include "tracer/frame/prepare/prepare.h"
 
 /* The mesh of an instance if rays of a space see it, else NULL. */
 static const struct scene_mesh *seen_mesh(const struct scene *scene, const struct prepared *p, uint32_t space,

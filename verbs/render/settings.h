@@ -43,7 +43,7 @@ struct settings {
 	struct tracer_options tracer;
 	char *aov;                      /* owned: the part of --aov that the tracer makes; NULL: all */
 	int motion;                     /* 1: channels that verbs/render/vectors.h adds */
-	int caustics;                   /* 1: channels that tracer/frame/photons.h adds */
+	int caustics;                   /* 1: channels that tracer/frame/light/photons.h adds */
 	unsigned photons;               /* for caustics; 0: the default number */
 	int denoise;                    /* 1: each frame is denoised separately (settings_denoise) */
 	int oidn;                       /* 1: with Open Image Denoise */

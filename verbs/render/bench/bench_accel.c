@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/err.h"
-#include "tracer/frame/traverse.h"
+#include "tracer/frame/common/traverse.h"
 
 enum { BUILD_S, BUILD_CPU_S, CAMERA_S, SHADOW_S, INCOHERENT_S, N_TIMES };
 

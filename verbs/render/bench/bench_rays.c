@@ -6,7 +6,7 @@
 #include "base/progress.h"
 #include "kernels/camera/camera.h"
 #include "tracer/accel/bvh.h"
-#include "tracer/frame/traverse.h"
+#include "tracer/frame/common/traverse.h"
 #include "verbs/render/bench/bench.h"
 
 #define NEAR 0.1f

@@ -1,0 +1,530 @@
+#include "tracer/frame/bands/layered.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "kernels/camera/camera.h"
+#include "kernels/frame/plain/plain.h"
+#include "kernels/gl/pixel.h"
+#include "tracer/frame/bands/plain.h"
+#include "tracer/frame/bands/segment.h"
+#include "tracer/frame/light/dome.h"
+#include "tracer/frame/light/secondary.h"
+#include "tracer/frame/picture/compose.h"
+#include "tracer/frame/picture/picture.h"
+
+/* A round of looks at a band, each a camera pass over a segment. columns, asking: as in layers_launch. */
+struct looks {
+	uint32_t n, most; /* most: looks that there is room for */
+	uint32_t layers;  /* layers of the block with the most */
+	uint32_t columns, asking;
+	const struct accel_space *space, *sky; /* space: for rays to lights; sky: for rays that hit nothing */
+	uint32_t next; /* segment to look at next: the same one if goes_on, from the positions in tracer.counts */
+	int goes_on;
+	struct layer_clear *clears; /* room for all clears of the frame */
+	uint32_t n_clears, cleared; /* n_clears: of this round; clears of segments before `cleared` are done */
+	uint32_t skipped;           /* clears of the first segment that are part of the initial pixels */
+};
+
+/* 1 if the kernels support all per-fragment operations of a material. */
+static int is_known(const struct job *job, const struct scene_material *m)
+{
+	return !(m->stencil_test && pixel_stencil_bits(job->bits)) && !m->logic_op && !m->floats && !m->srgb &&
+	       !m->samples_off && !m->alpha_to_coverage && !m->alpha_to_one &&
+	       !(m->surface.transmit > 0 && m->blend && !plain_has_mirrors(job));
+}
+
+static const struct accel_space *space_of(const struct job *job, const struct segment *segment)
+{
+	return job->options->mode == TRACER_GL ? NULL : secondary_space(job, segment->view, 0);
+}
+
+/* 1 if a segment's rays need another space than those of the round so far. */
+static int leaves_space(const struct job *job, const struct segment *segment, const struct looks *looks)
+{
+	const int has_rays = job->prepared.n_light_slots || plain_has_mirrors(job);
+	const struct accel_space *own = has_rays ? space_of(job, segment) : NULL;
+
+	return own && looks->space && own != looks->space;
+}
+
+/* Number of the first segment's clears that are part of the initial pixels. */
+static uint32_t cleared_first(const struct job *job, struct scene_clear *clear)
+{
+	const uint32_t n = segment_whole_clear(job, clear);
+
+	return job->scene->start ? 0 : n;
+}
+
+/* 1 if later clears affect none of these buffers (bits as in a Clear). */
+static int keeps_uncleared(const struct job *job, uint32_t buffers)
+{
+	struct scene_clear clear;
+	uint32_t first = cleared_first(job, &clear);
+
+	for (uint32_t i = 0; i < job->prepared.n_segments; i++, first = 0) {
+		const struct segment *segment = &job->prepared.segments[i];
+
+		for (uint32_t k = first; k < segment->clear_count; k++)
+			if (job->scene->clears[segment->clear_first + k].target == 0 &&
+			    job->scene->clears[segment->clear_first + k].buffers & buffers)
+				return 0;
+	}
+	return 1;
+}
+
+/* Buffers that all pixels begin with cleared. */
+static uint32_t cleared_buffers(const struct job *job)
+{
+	struct scene_clear clear;
+	const uint32_t n = cleared_first(job, &clear);
+	uint32_t buffers = 0;
+
+	for (uint32_t i = 0; i < n; i++)
+		buffers |= job->scene->clears[job->prepared.segments[0].clear_first + i].buffers;
+	return buffers;
+}
+
+/* 1 if unknown colours from before the frame may show. */
+static int is_unknown(const struct job *job)
+{
+	return job->scene->needs_previous && !job->scene->start && !(cleared_buffers(job) & 1);
+}
+
+/* For a picture: 1 if at most the colour of its pixels is unknown, and the stencil is unchanged. */
+static int suits_picture(const struct job *job)
+{
+	const struct scene *scene = job->scene;
+
+	if (job->picture->colors || job->picture->samples ||
+	    (scene->needs_previous && !scene->start && !(cleared_buffers(job) & 2)))
+		return 0;
+	for (uint32_t i = 0; i < scene->n_rectangles && scene->stencil_bits; i++)
+		if (scene->rectangles[i].kind == SCENE_STENCIL_PIXELS)
+			return 0;
+	return !scene->stencil_bits || keeps_uncleared(job, 4);
+}
+
+/* For an image: 1 if at most the colour of its pixels is unknown, and that may be made later. */
+static int suits_image(const struct job *job)
+{
+	const struct scene *scene = job->scene;
+
+	return !scene->needs_previous || scene->start || (scene->before && cleared_buffers(job) & 2);
+}
+
+int layered_suits(const struct job *job)
+{
+	const struct prepared *p = &job->prepared;
+
+	if (!frame_in_packets(job) || !plain_is_simple(job) || !keeps_uncleared(job, 1) || dome_is_there(job) ||
+	    p->has_fragment_programs || p->has_vertex_programs)
+		return 0;
+	if ((job->scene->start && job->scene->start->colors) || !(job->image ? suits_image(job) : suits_picture(job)))
+		return 0;
+	for (uint32_t i = 0; i < p->n_instances; i++)
+		if (!is_known(job, &job->scene->materials[p->instances[i].material]))
+			return 0;
+	return 1;
+}
+
+uint32_t layered_most_pixels(void)
+{
+	return 0xffffffffu / (PLAIN_LOOKS * CAMERA_COLUMN_MAX);
+}
+
+int layered_has_columns(const struct job *job)
+{
+	int columns = 0;
+
+	for (uint32_t i = 0; i < job->prepared.n_segments; i++)
+		columns |= job->prepared.segments[i].mode == CAMERA_COLUMN;
+	return columns && layered_suits(job);
+}
+
+/* --- Looks ------------------------------------------------------------------------------------------------------- */
+
+/* Clear the counts of a look: they are 0 outside its rectangle. */
+static int clear_look(struct job *job, const struct looks *looks)
+{
+	struct tracer *tr = job->tr;
+	const uint32_t first = plain_look_first(looks->columns, looks->n, job->n_pixels);
+	const size_t bytes = job->n_pixels * sizeof(*tr->counts);
+
+	memset(tr->counts, 0, bytes);
+	return device_write(tr->dev, tr->buffers.counts.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
+}
+
+/* Make room for one look at each segment, and one more for continued columns. */
+static int reserve_looks(struct job *job, struct looks *looks)
+{
+	struct tracer *tr = job->tr;
+	size_t n;
+	int err;
+
+	looks->most = layered_has_columns(job);
+	for (uint32_t i = 0; i < job->prepared.n_segments; i++)
+		looks->most += job->prepared.segments[i].view != SCENE_NONE;
+	looks->most = looks->most < PLAIN_LOOKS ? looks->most : PLAIN_LOOKS;
+	n = (size_t)looks->most * job->n_pixels;
+	err = frame_reserve(tr, counts, n * CAMERA_COLUMN_MAX);
+	if (!err)
+		err = frame_reserve(tr, after, n);
+	return err ? err : frame_reserve(tr, sparse, n * CAMERA_COLUMN_MAX);
+}
+
+/* Add a look's counts, in tracer.counts, to the layers of blocks, in tracer.first. @return most layers of a pixel */
+static uint32_t add_layers(struct job *job, struct looks *looks)
+{
+	const uint32_t columns = plain_columns(job->width);
+	uint32_t most_of_all = 0;
+
+	for (uint32_t y0 = 0; y0 < job->n_rows; y0 += PLAIN_ROWS)
+		for (uint32_t x0 = 0; x0 < job->width; x0 += PLAIN_WIDTH) {
+			uint32_t *layers = &job->tr->first[y0 / PLAIN_ROWS * columns + x0 / PLAIN_WIDTH], most = 0;
+
+			for (uint32_t y = y0; y < y0 + PLAIN_ROWS && y < job->n_rows; y++)
+				for (uint32_t x = x0; x < x0 + PLAIN_WIDTH && x < job->width; x++)
+					most = job->tr->counts[y * job->width + x] > most ? job->tr->counts[y * job->width + x] : most;
+			*layers += most;
+			looks->layers = *layers > looks->layers ? *layers : looks->layers;
+			most_of_all = most > most_of_all ? most : most_of_all;
+		}
+	return most_of_all;
+}
+
+/* Find where the columns filled by the last look continue. tracer.counts: its counts, replaced by these positions. */
+static int go_on(struct job *job, const struct looks *looks)
+{
+	struct tracer *tr = job->tr;
+	const uint32_t from = plain_look_first(looks->columns, looks->n - 1, job->n_pixels);
+	const struct fragment *sparse;
+	const void *mapped;
+	int err = device_map(tr->dev, tr->buffers.sparse.buffer,
+	                     ((size_t)from + job->n_pixels) * CAMERA_COLUMN_MAX * sizeof(*sparse), 1, &mapped);
+
+	if (err)
+		return err;
+	sparse = mapped;
+	for (uint32_t i = 0; i < job->n_pixels; i++)
+		tr->counts[i] = tr->counts[i] == CAMERA_COLUMN_MAX ?
+		                        sparse[((size_t)from + i) * CAMERA_COLUMN_MAX + CAMERA_COLUMN_MAX - 1].order +
+		                                1 :
+		                        SCENE_NONE;
+	return device_unmap(tr->dev, tr->buffers.sparse.buffer, mapped);
+}
+
+/* Look once at a rectangle of a segment. */
+static int look_at(struct job *job, const struct segment *segment, struct camera_rectangle r, struct looks *looks)
+{
+	struct tracer *tr = job->tr;
+	const struct accel_space *space = space_of(job, segment);
+	const uint32_t is_column = segment->mode == CAMERA_COLUMN;
+	const size_t bytes = job->n_pixels * sizeof(*tr->counts);
+	uint32_t first;
+	int err = 0;
+
+	looks->columns |= is_column << looks->n;
+	looks->asking |= (space != NULL) << looks->n;
+	looks->space = space ? space : looks->space;
+	looks->sky = space ? secondary_space(job, segment->view, 1) : looks->sky;
+	first = plain_look_first(looks->columns, looks->n, job->n_pixels);
+	if (!looks->goes_on)
+		memset(tr->counts, 0, bytes); /* columns start at the first fragment */
+	if (is_column)
+		err = device_write(tr->dev, tr->buffers.after.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
+	if (!err)
+		err = clear_look(job, looks);
+	if (!err)
+		err = segment_trace_camera(job, segment, r, first);
+	if (!err)
+		err = device_read(tr->dev, tr->buffers.counts.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
+	looks->n++;
+	looks->goes_on = !err && add_layers(job, looks) == CAMERA_COLUMN_MAX && is_column;
+	return looks->goes_on ? go_on(job, looks) : err;
+}
+
+/* Add the clears of a segment before the next look. */
+static void clear_segment(const struct job *job, const struct segment *segment, struct looks *looks)
+{
+	const uint32_t bits = pixel_depth_bits(job->bits);
+
+	for (uint32_t i = looks->cleared ? 0 : looks->skipped; i < segment->clear_count; i++) {
+		const struct scene_clear *clear = &job->scene->clears[segment->clear_first + i];
+		const struct camera_rectangle r = segment_in_buffers(job, segment_rectangle(job, clear->scissor));
+
+		if (clear->target == 0 && clear->buffers & 2)
+			looks->clears[looks->n_clears++] = (struct layer_clear){
+				looks->n, r.x0, r.y0, r.x1, r.y1, pixel_depth_steps(clear->depth, bits), clamp01(clear->depth)
+			};
+	}
+	looks->cleared++;
+}
+
+/* Run the looks of one round. tracer.first receives the layers of blocks. */
+static int look_around(struct job *job, struct looks *looks)
+{
+	const struct prepared *p = &job->prepared;
+	int err = 0;
+
+	looks->n = looks->layers = looks->columns = looks->asking = looks->n_clears = 0;
+	looks->space = looks->sky = NULL;
+	memset(job->tr->first, 0, plain_blocks(job->width, job->n_rows) * sizeof(*job->tr->first));
+	while (!err && looks->next < p->n_segments) {
+		const struct segment *segment = &p->segments[looks->next];
+		const uint32_t slots = segment->mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1;
+
+		if (segment->view != SCENE_NONE && segment->instance_count) {
+			const struct camera_rectangle r = segment_rectangle(job, p->views[segment->view].scissor);
+
+			if (looks->n == looks->most || looks->layers + slots > PLAIN_LAYERS ||
+			    leaves_space(job, segment, looks))
+				return 0;
+			if (looks->cleared == looks->next)
+				clear_segment(job, segment, looks);
+			if (r.x0 < r.x1)
+				err = look_at(job, segment, r, looks);
+		} else if (looks->cleared == looks->next) {
+			clear_segment(job, segment, looks);
+		}
+		looks->next += !looks->goes_on;
+	}
+	return err;
+}
+
+/* Give blocks with fragments their places, one per layer. @return number of pixels in all places */
+static uint32_t place_blocks(struct job *job)
+{
+	const uint32_t blocks = plain_blocks(job->width, job->n_rows);
+	uint32_t next = 0;
+
+	for (uint32_t i = 0; i < blocks; i++) {
+		const uint32_t layers = job->tr->first[i];
+
+		job->tr->first[i] = layers ? next : SCENE_NONE;
+		next += layers;
+	}
+	return next * PLAIN_WIDTH * PLAIN_ROWS;
+}
+
+/* --- Drawing ----------------------------------------------------------------------------------------------------- */
+
+/* Make room for the kernels' results for n fragments and their rays. */
+static int reserve_places(struct job *job, uint32_t n, uint32_t n_slots)
+{
+	struct tracer *tr = job->tr;
+	int err;
+
+	if ((err = frame_reserve(tr, alone_fragments, n)) || (err = frame_reserve(tr, alone_pixels, n)) ||
+	    (err = frame_reserve(tr, alone_shaded, n)) || (err = frame_reserve(tr, leaving, n / PLAIN_WIDTH)) ||
+	    (err = frame_reserve(tr, leaving_first, n / PLAIN_WIDTH)) || (err = frame_reserve(tr, fragments, 1)) ||
+	    (err = frame_reserve(tr, pixels, 1)) || (err = frame_reserve(tr, shaded, 1)) ||
+	    (err = frame_reserve(tr, dome_places, 1)))
+		return err;
+	return secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1);
+}
+
+/* round: PLAIN_BEGINS and similar flags */
+static struct plain_launch launch_of(const struct job *job, const struct looks *looks, uint32_t round, uint32_t n,
+                                     uint32_t n_slots, const struct compose_request *request)
+{
+	static const struct camera_rectangle nowhere;
+	const struct frame_buffers *b = &job->tr->buffers;
+	struct plain_launch a = plain_launch_of(job, nowhere, n, n_slots, request);
+
+	a.fragments = b->alone_fragments;
+	a.pixels = b->alone_pixels;
+	a.shaded = b->alone_shaded;
+	a.layers = *LAUNCH(layers, .counts = b->counts, .n_looks = looks->n, .columns = looks->columns,
+	                   .asking = looks->asking, .round = round, .clears = b->layer_clears,
+	                   .n_clears = looks->n_clears, .before = b->kept_pixels, .after = b->next_pixels,
+	                   .unknown = b->unknown, .mirrors = looks->space && plain_has_mirrors(job),
+	                   .leaving = b->leaving, .list_first = b->leaving_first, .list = b->fragments,
+	                   .list_pixels = b->pixels, .list_shaded = b->shaded);
+	return a;
+}
+
+/* Give the fragments that reflect or transmit light their places in the list, out of n fragments. n_list: receives
+ * their number */
+static int place_leaving(struct job *job, uint32_t n, uint32_t *n_list)
+{
+	struct tracer *tr = job->tr;
+	const uint32_t rows = n / PLAIN_WIDTH;
+	uint32_t *first = malloc(rows * sizeof(*first));
+	const void *mapped;
+	int err;
+
+	*n_list = 0;
+	if (!first)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %u rows of pixels", rows);
+	err = device_map(tr->dev, tr->buffers.leaving.buffer, rows * sizeof(*first), 1, &mapped);
+	for (uint32_t i = 0; i < rows && !err; i++) {
+		first[i] = *n_list;
+		for (uint32_t left = ((const uint32_t *)mapped)[i]; left; left &= left - 1)
+			++*n_list;
+	}
+	if (!err)
+		err = device_unmap(tr->dev, tr->buffers.leaving.buffer, mapped);
+	if (!err)
+		err = frame_upload(tr, leaving_first, first, rows);
+	free(first);
+	if (!err && *n_list)
+		err = frame_reserve(tr, fragments, *n_list);
+	if (!err && *n_list)
+		err = frame_reserve(tr, pixels, *n_list);
+	return err || !*n_list ? err : frame_reserve(tr, shaded, *n_list);
+}
+
+/* Follow paths from the list, then make all planes if there are any. The visibility of lights is saved, as rays of
+ * paths overwrite it. */
+static int follow(struct job *job, const struct looks *looks, struct plain_launch a, uint32_t n_list)
+{
+	struct frame_buffers *b = &job->tr->buffers;
+	const union buffer_float visibility = b->visibility;
+	int err;
+
+	b->visibility = b->kept_visibility;
+	b->kept_visibility = visibility;
+	err = secondary_paths(job, looks->space, looks->sky, n_list);
+	if (err)
+		return err;
+	a = launch_of(job, looks, a.layers.round, a.n, a.n_slots, &a.request);
+	a.visibility = visibility;
+	return launch_layered_mirror(job->tr->dev, plain_blocks(job->width, job->n_rows), &a);
+}
+
+/* Draw all planes without shadows and mirrors, trace rays to lights, then redraw the planes that these change. */
+static int draw(struct job *job, const struct looks *looks, uint32_t round, uint32_t n,
+                const struct compose_request *request)
+{
+	const uint32_t blocks = plain_blocks(job->width, job->n_rows),
+		       n_slots = looks->space && n ? job->prepared.n_light_slots : 0;
+	uint32_t n_list = 0;
+	struct plain_launch a;
+	int err = reserve_places(job, n, n_slots);
+
+	if (!err)
+		err = frame_upload(job->tr, layer_clears, looks->clears, looks->n_clears + 1);
+	if (err)
+		return err;
+	a = launch_of(job, looks, round, n, n_slots, request);
+	err = launch_layered(job->tr->dev, blocks, &a);
+	if (!err && n_slots)
+		err = secondary_ask(job, looks->space, 1, a.rays, n * n_slots);
+	if (!err && n && a.layers.mirrors)
+		err = place_leaving(job, n, &n_list);
+	if (err || !(n_slots || n_list))
+		return err;
+	a = launch_of(job, looks, round, n, n_slots, request);
+	if (round & PLAIN_ENDS) /* other rounds pass on whole pixels */
+		a.request = plain_shadow_request(a.request);
+	err = launch_layered_shadow(job->tr->dev, blocks, &a);
+	a.request = *request;
+	return err || !n_list ? err : follow(job, looks, a, n_list);
+}
+
+/* Make room for the state passed from one round to the next, if there are several. */
+static int reserve_kept(struct job *job, int is_only)
+{
+	const size_t n = is_only ? 1 : (size_t)plain_columns(job->width) * PLAIN_WIDTH * job->n_rows * PLAIN_KEPT;
+	int err = frame_reserve(job->tr, kept_pixels, n);
+
+	return err ? err : frame_reserve(job->tr, next_pixels, n);
+}
+
+/* Use the picture that the frame starts from as the state of an earlier round. */
+static int keep_start(struct job *job)
+{
+	const struct scene_picture *start = job->scene->start;
+	const struct frame_buffers *b = &job->tr->buffers;
+	const size_t first = frame_first_pixel(job);
+	int err = frame_reserve(job->tr, colors, job->n_pixels);
+
+	if (!err)
+		err = device_write(job->tr->dev, b->colors.buffer, 0, start->rgba + 4 * first, job->n_pixels * sizeof(uint32_t));
+	if (!err)
+		err = frame_upload(job->tr, depths, start->depth + first, job->n_pixels);
+	return err ? err :
+	             launch_layered_start(job->tr->dev, (size_t)plain_columns(job->width) * job->n_rows,
+	                                  LAUNCH(layered_start, .colors = b->colors, .depths = b->depths,
+	                                         .width = job->width, .height = job->n_rows, .bits = job->bits,
+	                                         .kept = b->kept_pixels));
+}
+
+/* Flags of a round, except PLAIN_ENDS. */
+static uint32_t round_of(const struct job *job, int is_first)
+{
+	if (!is_first)
+		return plain_has_mirrors(job) ? PLAIN_MIRRORED : 0;
+	return job->scene->start ? 0 : PLAIN_BEGINS | (is_unknown(job) ? PLAIN_UNKNOWN : 0);
+}
+
+/* Run a round with as many looks as there is room for, and draw the fragments found. is_first: first round of the band.
+ * is_last: receives 1 if it was the last */
+static int draw_round(struct job *job, struct looks *looks, int is_first, int *is_last,
+                      const struct compose_request *request)
+{
+	struct frame_buffers *b = &job->tr->buffers;
+	union buffer_float kept;
+	uint32_t n, round = round_of(job, is_first);
+	int err = look_around(job, looks);
+
+	if (err)
+		return err;
+	*is_last = looks->next == job->prepared.n_segments;
+	round |= *is_last && job->image ? PLAIN_ENDS : 0;
+	n = place_blocks(job);
+	err = frame_upload(job->tr, blocks, job->tr->first, plain_blocks(job->width, job->n_rows));
+	if (!err)
+		err = reserve_kept(job, is_first && *is_last && job->image && !job->scene->start);
+	if (!err && is_first && job->scene->start)
+		err = keep_start(job);
+	if (!err)
+		err = draw(job, looks, round, n, request);
+	kept = b->next_pixels;
+	b->next_pixels = b->kept_pixels;
+	b->kept_pixels = kept;
+	return err;
+}
+
+/* looks: has room for clears */
+static int draw_band(struct job *job, struct looks *looks)
+{
+	struct compose_request request;
+	struct scene_clear clear;
+	int err, is_last = 0;
+
+	looks->skipped = cleared_first(job, &clear);
+	memset(job->background, 0, sizeof(job->background));
+	if (!job->scene->start)
+		memcpy(job->background, clear.color, sizeof(job->background));
+	/* Same condition as in plain_band. */
+	err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
+	if (!err)
+		err = frame_reserve_counts(job);
+	if (!err)
+		err = reserve_looks(job, looks);
+	if (!err)
+		err = compose_reserve(job, &request);
+	if (!err)
+		err = frame_reserve(job->tr, unknown, plain_columns(job->width) * job->n_rows);
+	for (int is_first = 1; !err && !is_last; is_first = 0)
+		err = draw_round(job, looks, is_first, &is_last, &request);
+	if (err)
+		return err;
+	if (!job->image)
+		return picture_take_band(job, clear.stencil);
+	err = compose_fetch(job, &request, job->image);
+	return err || !is_unknown(job) ? err : picture_count_rows(job);
+}
+
+int layered_band(struct job *job)
+{
+	struct looks looks = { .clears = calloc(job->scene->n_clears + (size_t)1, sizeof(*looks.clears)) };
+	int err = looks.clears ? draw_band(job, &looks) :
+	                         err_report(ERR_SYSTEM, NULL, "out of memory for %u clears", job->scene->n_clears);
+
+	free(looks.clears);
+	return err;
+}

@@ -1,0 +1,21 @@
+/*
+ * Frames on CPUs that are like plain ones (plain.h) except for their draws: several segments, blending, alpha tests, no
+ * depth tests. Camera rays of all segments are traced first. Then two kernels draw all fragments of a pixel over each
+ * other (kernels/frame/layered/layered.cl). If a pixel has more than PLAIN_LAYERS fragments, both steps are repeated in
+ * rounds. Pictures of GL's frame buffer are made in the same way.
+ */
+#pragma once
+
+#include "tracer/frame/common/frame.h"
+
+/** 1 if this pass of the frame can be drawn in this way. Needs job->prepared. */
+int layered_suits(const struct job *job);
+
+/** 1 if it can, and a pixel may have many fragments. */
+int layered_has_columns(const struct job *job);
+
+/** Most pixels in a band. */
+uint32_t layered_most_pixels(void);
+
+/** Draw the band into job->image or job->picture. @return 0 or ERR_SYSTEM (reported) */
+int layered_band(struct job *job);

@@ -1,0 +1,28 @@
+/*
+ * Plain frames are cleared and drawn once, show the nearest fragment of each pixel, and have no mirrors. They take two
+ * kernels from camera rays to channels (kernels/frame/plain/plain.h), with rays to lights between them.
+ */
+#pragma once
+
+#include "tracer/frame/common/frame.h"
+
+/** 1 if this pass of the frame is plain. Needs job->prepared. */
+int plain_suits(const struct job *job);
+
+/** Draw the band into job->image. @return 0 or ERR_SYSTEM (reported) */
+int plain_band(struct job *job);
+
+/* --- For layered.c, which draws in the same way ------------------------------------------------------------------ */
+
+/** 1 if a frame meets the conditions of both ways: one pass, lights without a size. */
+int plain_is_simple(const struct job *job);
+
+/** 1 if there are surfaces that reflect or transmit light. */
+int plain_has_mirrors(const struct job *job);
+
+/** Arguments of both ways, without dome light. r: rectangle of the band */
+struct plain_launch plain_launch_of(const struct job *job, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
+                                    const struct compose_request *request);
+
+/** Restrict a request to the planes that shadows change. */
+struct compose_request plain_shadow_request(struct compose_request r);

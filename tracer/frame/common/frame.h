@@ -1,0 +1,130 @@
+/*
+ * Types shared by the rooms of tracer/frame: the tracer with its buffers on the device, and a frame in progress.
+ *
+ * Every function that uses the device may return ERR_MEMORY (tracer/device/device.h). trace.c then asks for less memory
+ * or reports the error.
+ */
+#pragma once
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "tracer/accel/accel.h"
+#include "tracer/device/device.h"
+#include "tracer/frame/common/options.h"
+#include "tracer/frame/common/picture_kept.h"
+#include "tracer/frame/common/pool.h"
+#include "tracer/frame/common/traverse.h"
+#include "tracer/frame/prepare/prepare.h"
+
+/* X(element, name): buffers of a frame other than pools and trees. */
+#define FRAME_BUFFERS(X) FRAME_WHOLE_BUFFERS(X) FRAME_BAND_BUFFERS(X)
+
+/* First the buffers that a frame keeps from band to band, then those of a band. */
+#define FRAME_WHOLE_BUFFERS(X) \
+	X(geometry, geometries) X(scene_material, materials) X(scene_light, lights) X(scene_unit, units) \
+	X(scene_current, currents) \
+	X(uint, stipples) X(uint, programs) X(texture_image, textures) X(view, views) \
+	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) \
+	X(float, sums) X(emitter, emitters) X(float, parameters) X(hook_object, objects)
+#define FRAME_BAND_BUFFERS(X) \
+	X(uint, after) X(fragment, sparse) X(uint, counts) X(uint, first) \
+	X(fragment, fragments) X(uint, pixels) X(shaded, shaded) \
+	X(ray, rays) X(uint, occluded) X(float, visibility) X(uint, wanted) X(float, background) X(uint, places) \
+	X(uint, scan) \
+	X(path, paths) X(ray, path_rays) X(hit, path_hits) X(path, next_paths) X(ray, next_path_rays) X(uint, next_counts) \
+	X(ray, sky_rays) X(hit, sky_hits) X(float, radiance) \
+	X(photon, photons) X(path, shadow_paths) X(ray, shadow_rays) X(hit, shadow_hits) X(path, next_shadow_paths) \
+	X(ray, next_shadow_rays) \
+	X(frame_pixel, cleared) X(uint, drawn) X(dome_place, dome_places) X(float, dome_sums) X(float, dome_directions) \
+	X(ray, dome_rays) X(float, dome_factors) X(uint, blocks) \
+	X(fragment, alone_fragments) X(uint, alone_pixels) X(shaded, alone_shaded) X(uint, leaving) \
+	X(uint, leaving_first) X(float, kept_visibility) X(float, kept_pixels) X(float, next_pixels) \
+	X(layer_clear, layer_clears) X(uint, colors) X(uint, depths) X(uint, unknown) X(half, halves) X(float, floats) \
+	X(hook_answer, answers)
+
+struct frame_buffers {
+#define FRAME_FIELD(element, name) union buffer_##element name;
+	FRAME_BUFFERS(FRAME_FIELD)
+	union buffer_frame_pixel frame, samples[SCENE_SAMPLES]; /* samples: if pixels have several */
+};
+
+/* The definition of struct tracer, which trace.h hides. */
+struct tracer {
+	struct device *dev;
+	struct accel *accel;
+	size_t tree_room[N_BLAS_PARTS]; /* room of the buffers of mesh trees, in items */
+	struct pool attributes, indices, texels;
+	struct traverse_trees trees;
+	struct frame_buffers buffers;
+	uint32_t *counts, *first; /* [pixels], host copies */
+	size_t n_counted;
+	uint32_t most_rows; /* most rows in a band, after the device ran out of memory for more; 0: no limit */
+	struct tracer_undrawn undrawn;
+	struct tracer_added added;
+	struct picture_kept drawn; /* the last picture drawn */
+};
+
+struct expanded;
+
+/* One frame in progress. */
+struct job {
+	struct tracer *tr;
+	const struct scene *scene;
+	const struct tracer_options *options;
+	struct prepared prepared;
+	struct expanded *expanded;       /* [n_instances]: lines and points as quads; empty for others */
+	const struct scene_mesh **extra; /* [n_instances]: meshes of the expanded instances, or NULL */
+	const struct accel_space *spaces;
+	uint32_t n_spaces;
+	struct emission_list { /* emissive surfaces of a space: a range of the list of all */
+		uint32_t first, n;
+		float emitted; /* total emission, as in kernels.h */
+	} *emissions; /* [n_spaces] in mode path, else NULL */
+	const struct segment *hooked; /* first segment of the eye space that hooks' rays are in; NULL: none */
+	struct job_objects { /* objects that a hook's intersection replaces: hook_objects.h */
+		struct hook_object *list;
+		uint32_t n, space;     /* space: the eye space of the objects */
+		uint32_t room;         /* most rays of one kind that may hit objects */
+		uint32_t vertex_first, texcoord_first; /* start of the room for triangles that represent hits */
+		uint32_t *index;       /* indices of these triangles */
+		struct scene_mesh mesh;
+	} objects;
+	uint32_t width, height;
+	uint32_t row_first, n_rows; /* the band being drawn; buffers of pixels hold its pixels, bottom row first */
+	uint32_t n_pixels;          /* number of pixels in the band */
+	uint32_t bits; /* bits of the frame buffer and the sample being drawn: see pixel_depth_bits */
+	uint32_t n_samples; /* samples of a pixel in this pass: 1 or SCENE_SAMPLES */
+	union buffer_frame_pixel *frame; /* buffer of the sample being drawn */
+	float background[4];
+	uint32_t pass, n_passes; /* current pass and number of passes: each traces one sample per pixel; pass 0 is the
+	                          * pixel centre and is traced last */
+	uint32_t is_first;       /* 1: first of the passes to be summed; there are no sums yet */
+	uint32_t is_placed; /* 1: state, vertices and trees of the previous pass are on the device; only the picture has
+	                     * to be moved */
+	uint32_t turn;           /* selects the pixels that take part in the other passes (sample_takes_part) */
+	struct tracer_added added;      /* counts of the picture's bands so far */
+	uint64_t unknown; /* pixels so far that show or tested unknown contents from before the scene */
+	struct image *image;            /* image or picture receives the bands of the last pass; the other is NULL */
+	struct scene_picture *picture;
+};
+
+/* Reserve `count` elements of one of the tracer's buffers, by name; reserve and fill it. */
+#define frame_reserve(tr, name, count) launch_reserve((tr)->dev, (tr)->buffers.name, count)
+#define frame_upload(tr, name, data, count) launch_upload((tr)->dev, (tr)->buffers.name, data, count)
+
+/** Tables passed to every shading kernel. */
+struct tables_launch frame_tables(const struct tracer *tr);
+
+/** Index of the band's first pixel in the frame. */
+uint32_t frame_first_pixel(const struct job *job);
+
+/** 1 if kernels process packets of rays and fragments; 0: one per work item. */
+int frame_in_packets(const struct job *job);
+
+/** The buffer of one sample of the pixels; the frame itself if they have only one. */
+union buffer_frame_pixel *frame_sample(const struct job *job, uint32_t sample);
+
+/** Make room for one word per pixel of the band in tracer.counts and tracer.first. @return 0 or ERR_SYSTEM
+ * (reported) */
+int frame_reserve_counts(struct job *job);

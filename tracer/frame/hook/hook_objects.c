@@ -1,0 +1,218 @@
+#include "tracer/frame/hook/hook_objects.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "tracer/frame/hook/hooks.h"
+
+/* Room for rays of one kind that may hit objects in a CPU's band: twice its pixels. Wide pictures have larger bands
+ * (trace.c). */
+#define ROOM 131072u
+#define ROOM_ROWS 64u
+
+static const struct scene_mesh *mesh_of(const struct job *job, uint32_t instance)
+{
+	return job->scene->meshes[job->scene->instances[job->prepared.instances[instance].scene_instance].mesh];
+}
+
+/* Describe an instance that the hook may make an object. @return 0: it may not */
+static int describe(const struct job *job, uint32_t i, struct hook_object *out)
+{
+	const struct instance *instance = &job->prepared.instances[i];
+	const struct scene_mesh *mesh = mesh_of(job, i);
+
+	if (!(instance->flags & INSTANCE_SECONDARY) ||
+	    instance->flags & (INSTANCE_BAKED | INSTANCE_SKY | INSTANCE_SCREEN) || mesh->vertex_count == 0 ||
+	    job->prepared.scene_views[instance->view].space != job->objects.space)
+		return 0;
+	*out = (struct hook_object){ .instance = i, .material = instance->material, .draw = instance->draw };
+	memcpy(out->obj_from_eye, instance->obj_from_eye, sizeof(out->obj_from_eye));
+	for (int a = 0; a < 3; a++) {
+		out->lower[a] = INFINITY;
+		out->upper[a] = -INFINITY;
+		for (uint32_t v = 0; v < mesh->vertex_count; v++) {
+			const float *at = mesh->position + 4 * (size_t)v;
+
+			out->lower[a] = fminf(out->lower[a], at[a] / at[3]);
+			out->upper[a] = fmaxf(out->upper[a], at[a] / at[3]);
+		}
+	}
+	return 1;
+}
+
+static int ask_bounds(struct job *job)
+{
+	struct tracer *tr = job->tr;
+	struct job_objects *o = &job->objects;
+	int err = frame_upload(tr, objects, o->list, o->n);
+
+	if (!err)
+		err = launch_hook_bounds(tr->dev, o->n,
+		                         LAUNCH(hook_bounds, .parameters = tr->buffers.parameters,
+		                                .words = job->options->hook->words, .n = o->n,
+		                                .objects = tr->buffers.objects));
+	return err ? err : device_read(tr->dev, tr->buffers.objects.buffer, 0, o->list, o->n * sizeof(*o->list));
+}
+
+/* Keep the objects that have a box, and make rays ignore their triangles. */
+static void keep_bounded(struct job *job)
+{
+	struct job_objects *o = &job->objects;
+	const uint32_t n = o->n;
+
+	o->n = 0;
+	for (uint32_t i = 0; i < n; i++) {
+		const struct hook_object object = o->list[i];
+		int is_there = 1;
+
+		for (int a = 0; a < 3; a++)
+			is_there &= isfinite(object.lower[a]) && isfinite(object.upper[a]) && object.lower[a] <= object.upper[a];
+		if (!is_there)
+			continue;
+		job->prepared.instances[object.instance].flags &= ~INSTANCE_SECONDARY;
+		o->list[o->n++] = object;
+	}
+}
+
+/* Make the mesh of slots: each has a triangle with three separate vertices. */
+static int make_mesh(struct job_objects *o, uint32_t width)
+{
+	uint32_t n;
+
+	o->room = ROOM + ROOM_ROWS * width;
+	n = N_HOOK_RAYS_OF * o->room;
+	o->index = malloc(3 * (size_t)n * sizeof(*o->index));
+	if (!o->index)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t i = 0; i < 3 * n; i++)
+		o->index[i] = i;
+	o->mesh = (struct scene_mesh){ .hash = { n, 0x6f626a65637473 },
+		                       .kind = SCENE_TRIANGLES,
+		                       .vertex_count = 3 * n,
+		                       .primitive_count = n,
+		                       .index = o->index };
+	return 0;
+}
+
+/* Upload separate current attributes for objects: an object without vertex arrays has the colour of its first
+ * vertex. */
+static int upload_currents(struct job *job)
+{
+	const struct scene *scene = job->scene;
+	const struct job_objects *o = &job->objects;
+	struct scene_current *currents = malloc((scene->n_currents + (size_t)o->n) * sizeof(*currents));
+	int err;
+
+	if (!currents)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	memcpy(currents, scene->currents, scene->n_currents * sizeof(*currents));
+	for (uint32_t i = 0; i < o->n; i++) {
+		const struct scene_mesh *mesh = mesh_of(job, o->list[i].instance);
+		struct scene_current *c = &currents[scene->n_currents + i];
+
+		*c = scene->currents[job->prepared.geometries[o->list[i].instance].current];
+		if (mesh->color)
+			memcpy(c->color, mesh->color, sizeof(c->color));
+		if (mesh->secondary)
+			memcpy(c->secondary, mesh->secondary, sizeof(c->secondary));
+	}
+	err = frame_upload(job->tr, currents, currents, scene->n_currents + o->n);
+	free(currents);
+	return err;
+}
+
+int hook_objects_find(struct job *job)
+{
+	const struct segment *segment = hooks_has(job, HOOK_INTERSECTION) ? job->hooked : NULL;
+	struct job_objects *o = &job->objects;
+	int err;
+
+	if (!segment)
+		return 0;
+	o->space = job->prepared.scene_views[segment->view].space;
+	o->list = calloc(job->prepared.n_instances, sizeof(*o->list));
+	if (!o->list)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	for (uint32_t i = 0; i < job->prepared.n_instances; i++)
+		o->n += (uint32_t)describe(job, i, &o->list[o->n]);
+	err = o->n ? ask_bounds(job) : 0;
+	if (!err)
+		keep_bounded(job);
+	if (err || !o->n)
+		return err;
+	err = make_mesh(o, job->width);
+	if (!err)
+		err = frame_upload(job->tr, objects, o->list, o->n);
+	return err ? err : upload_currents(job);
+}
+
+void hook_objects_forget(struct job *job)
+{
+	free(job->objects.list);
+	free(job->objects.index);
+	job->objects = (struct job_objects){ .n = 0 };
+}
+
+size_t hook_objects_vertices(const struct job *job)
+{
+	return job->objects.n ? job->objects.mesh.vertex_count : 0;
+}
+
+size_t hook_objects_texcoords(const struct job *job)
+{
+	const struct job_objects *o = &job->objects;
+	size_t most = 0;
+
+	for (uint32_t i = 0; i < o->n; i++)
+		if (job->scene->materials[o->list[i].material].unit_count > most)
+			most = job->scene->materials[o->list[i].material].unit_count;
+	return most * hook_objects_vertices(job);
+}
+
+void hook_objects_stand(struct job *job, uint32_t object, uint32_t index)
+{
+	const struct job_objects *o = &job->objects;
+	struct geometry *g = &job->prepared.geometries[o->list[object].instance];
+
+	g->attributes = 0;
+	g->current = job->scene->n_currents + object;
+	g->crease = g->primitive_draw = SCENE_NONE;
+	g->index = index;
+	g->vertex_first = o->vertex_first;
+	g->vertex_count = o->mesh.vertex_count;
+	g->texcoord_first = o->texcoord_first;
+}
+
+int hook_objects_in(const struct job *job, const struct accel_space *space)
+{
+	return job->objects.n && !space->sky && space->space == job->objects.space;
+}
+
+int hook_objects_intersect(struct job *job, const struct traverse_rays *rays, enum hook_rays_of whose)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+
+	if (rays->n > job->objects.room)
+		return ERR_MEMORY;
+	return launch_hook_intersect(
+		tr->dev, rays->n,
+		LAUNCH(hook_intersect, .tables = frame_tables(tr), .views = b->views, .objects = b->objects,
+	               .n_objects = job->objects.n, .rays = rays->rays, .parameters = b->parameters,
+	               .words = job->options->hook->words, .alone = !rays->space->n_nodes,
+	               .first_slot = (uint32_t)whose * job->objects.room, .n = rays->n, .hits = rays->hits,
+	               .made = b->vertices, .made_coords = b->texcoords, .windows = b->windows));
+}
+
+int hook_objects_occlude(struct job *job, const struct traverse_rays *rays)
+{
+	const struct frame_buffers *b = &job->tr->buffers;
+
+	return launch_hook_occlude(job->tr->dev, rays->n,
+	                           LAUNCH(hook_occlude, .objects = b->objects, .n_objects = job->objects.n,
+	                                  .rays = rays->rays, .parameters = b->parameters,
+	                                  .words = job->options->hook->words, .alone = !rays->space->n_nodes,
+	                                  .n = rays->n, .occluded = rays->occluded));
+}

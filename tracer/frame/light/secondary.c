@@ -1,0 +1,487 @@
+#include "tracer/frame/light/secondary.h"
+
+#include <stdlib.h>
+
+#include "base/err.h"
+#include "tracer/frame/hook/hook_objects.h"
+#include "tracer/frame/hook/hooks.h"
+#include "tracer/frame/light/emitters.h"
+#include "tracer/frame/light/scan.h"
+
+/* Most transmitting surfaces in a row that a ray to a light may pass, besides its bounces. */
+#define MOST_LAYERS 32u
+
+const struct accel_space *secondary_space(const struct job *job, uint32_t view, int sky)
+{
+	for (uint32_t i = 0; i < job->n_spaces; i++)
+		if (job->spaces[i].space == job->prepared.scene_views[view].space && job->spaces[i].sky == sky &&
+		    (job->spaces[i].n_nodes || hook_objects_in(job, &job->spaces[i])))
+			return &job->spaces[i];
+	return NULL;
+}
+
+uint32_t secondary_transport(const struct tracer_options *options)
+{
+	if (options->mode == TRACER_PATH)
+		return options->display ? TRANSPORT_PATH : TRANSPORT_LINEAR;
+	if (options->mode == TRACER_DIFFUSE)
+		return TRANSPORT_DIFFUSE;
+	return options->relight ? TRANSPORT_RELIGHT : TRANSPORT_GL;
+}
+
+/* The frame number that scrambles samples in mode path; 0: all frames use the same samples. */
+static uint32_t frame_number(const struct job *job)
+{
+	return job->options->mode == TRACER_PATH ? (uint32_t)job->scene->frame + 1 : 0;
+}
+
+/* Number of work items for kernels that process SHADE_PACKET items each. */
+static uint32_t packs(uint32_t n)
+{
+	return (n + SHADE_PACKET - 1) / SHADE_PACKET;
+}
+
+/* Find which of n rays hit anything in a space. */
+static int occlude(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
+                   union buffer_uint occluded, uint32_t n)
+{
+	const struct traverse_rays r = { .space = space, .n = n, .to_lights = to_lights, .rays = rays, .occluded = occluded };
+	struct device *dev = job->tr->dev;
+	int err = space->n_nodes ? traverse_rays(dev, traverse_families[device_family(dev)].occlude, &job->tr->trees, &r) : 0;
+
+	return err || !hook_objects_in(job, space) ? err : hook_objects_occlude(job, &r);
+}
+
+/* Find the nearest hits of rays. whose: kind of rays */
+static int intersect(struct job *job, const struct accel_space *space, enum hook_rays_of whose, union buffer_ray rays,
+                     union buffer_hit hits, uint32_t n)
+{
+	const struct traverse_rays r = { .space = space, .n = n, .rays = rays, .hits = hits };
+	struct device *dev = job->tr->dev;
+	int err = space->n_nodes ?
+	                  traverse_rays(dev, traverse_families[device_family(dev)].intersect, &job->tr->trees, &r) :
+	                  0;
+
+	return err || !hook_objects_in(job, space) ? err : hook_objects_intersect(job, &r, whose);
+}
+
+/* --- Lists ------------------------------------------------------------------------------------------------------- */
+
+/* A list of paths and their rays, and room for the next list. */
+struct list {
+	union buffer_path *paths, *next_paths;
+	union buffer_ray *rays, *next_rays;
+};
+
+static struct list path_list(struct job *job)
+{
+	struct frame_buffers *b = &job->tr->buffers;
+
+	return (struct list){ &b->paths, &b->next_paths, &b->path_rays, &b->next_path_rays };
+}
+
+/* The list of rays to lights that continue beyond the surface that stopped them. */
+static struct list shadow_list(struct job *job)
+{
+	struct frame_buffers *b = &job->tr->buffers;
+
+	return (struct list){ &b->shadow_paths, &b->next_shadow_paths, &b->shadow_rays, &b->next_shadow_rays };
+}
+
+static int reserve_list(struct job *job, const struct list *list, size_t n)
+{
+	int err = launch_reserve(job->tr->dev, *list->paths, n);
+
+	return err ? err : launch_reserve(job->tr->dev, *list->rays, n);
+}
+
+static int reserve_next(struct job *job, const struct list *list, size_t n)
+{
+	int err = launch_reserve(job->tr->dev, *list->next_paths, n);
+
+	return err ? err : launch_reserve(job->tr->dev, *list->next_rays, n);
+}
+
+/* Compute the positions of n items' results in a dense list from their counts, into buffers.places. */
+static int place(struct job *job, union buffer_uint counts, uint32_t n, uint32_t *total)
+{
+	struct tracer *tr = job->tr;
+
+	return scan_counts(tr->dev,
+	                   &(const struct scan_list){ counts, n, SCENE_NONE, &tr->buffers.places, &tr->buffers.scan },
+	                   total, NULL);
+}
+
+/* Replace a list by the results of its n paths, up to `slots` each. */
+static int gather_list(struct job *job, const struct list *list, uint32_t slots, uint32_t *n)
+{
+	const struct frame_buffers *b = &job->tr->buffers;
+	uint32_t from = *n;
+	int err = place(job, b->next_counts, from, n);
+
+	if (err || *n == 0)
+		return err;
+	err = reserve_list(job, list, *n);
+	if (err)
+		return err;
+	return launch_gather_paths(job->tr->dev, from,
+	                           LAUNCH(gather_paths, .next_rays = *list->next_rays, .next_paths = *list->next_paths,
+	                                  .counts = b->next_counts, .places = b->places, .slots = slots, .n = from,
+	                                  .rays = *list->rays, .paths = *list->paths));
+}
+
+/* --- Rays to lights ---------------------------------------------------------------------------------------------- */
+
+static int start_walk(struct job *job, const struct list *list, union buffer_ray rays, uint32_t n_rays, float weight,
+                      uint32_t *n)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	int err = place(job, b->occluded, n_rays, n);
+
+	if (err || *n == 0)
+		return err;
+	err = reserve_list(job, list, *n);
+	if (!err)
+		err = reserve_next(job, list, *n);
+	if (!err)
+		err = frame_reserve(tr, shadow_hits, *n);
+	if (!err)
+		err = frame_reserve(tr, next_counts, *n);
+	if (err)
+		return err;
+	return launch_shadow_start(tr->dev, n_rays,
+	                           LAUNCH(shadow_start, .occluded = b->occluded, .places = b->places, .rays = rays,
+	                                  .weight = weight, .n = n_rays, .shadow_rays = *list->rays,
+	                                  .shadow_paths = *list->paths));
+}
+
+/* Continue those of n_rays rays that shadow_sum left as stopped, through transmitting surfaces one after another. */
+static int walk_layers(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
+                       uint32_t n_rays, float weight)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	const struct list list = shadow_list(job);
+	uint32_t n;
+	int err = start_walk(job, &list, rays, n_rays, weight, &n);
+
+	for (uint32_t i = 0; i < MOST_LAYERS && n && !err; i++) {
+		err = intersect(job, space, HOOK_RAYS_TO_LIGHTS, *list.rays, b->shadow_hits, n);
+		if (!err)
+			err = launch_shadow_walk(tr->dev, n,
+			                         LAUNCH(shadow_walk, .tables = frame_tables(tr), .hits = b->shadow_hits,
+			                                .rays = *list.rays, .paths = *list.paths, .to_lights = to_lights, .n = n,
+			                                .visibility = b->visibility, .next_rays = *list.next_rays,
+			                                .next_paths = *list.next_paths, .counts = b->next_counts));
+		if (!err && hooks_has(job, HOOK_ANY_HIT))
+			err = hooks_walk(job, secondary_transport(job->options), n);
+		if (!err)
+			err = gather_list(job, &list, 1, &n);
+	}
+	return err;
+}
+
+/* Trace one of `samples` rounds of n_rays rays, already made, into buffers.visibility. to_lights: 0 for rays into the
+ * surroundings */
+static int ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
+               uint32_t n_rays, uint32_t sample, uint32_t samples)
+{
+	const struct frame_buffers *b = &job->tr->buffers;
+	const int through = job->prepared.has_transparency || hooks_has(job, HOOK_ANY_HIT);
+	float weight = 1.0f / (float)samples;
+	int err = occlude(job, space, to_lights, rays, b->occluded, n_rays);
+
+	if (!err)
+		err = launch_shadow_sum(job->tr->dev, n_rays, LAUNCH(shadow_sum, .rays = rays, .weight = weight, .first = sample == 0,
+		                                                     .through = (uint32_t)through, .n = n_rays,
+		                                                     .occluded = b->occluded,
+		                                                     .visibility = b->visibility));
+	return err || !(to_lights || through) ? err : walk_layers(job, space, to_lights, rays, n_rays, weight);
+}
+
+int secondary_reserve_rays(struct job *job, size_t n_rays)
+{
+	struct tracer *tr = job->tr;
+	int err = frame_reserve(tr, rays, n_rays);
+
+	if (!err)
+		err = frame_reserve(tr, occluded, n_rays);
+	if (!err)
+		err = frame_reserve(tr, visibility, 3 * (size_t)n_rays);
+	return err;
+}
+
+int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
+                  uint32_t n_rays)
+{
+	return ask(job, space, to_lights, rays, n_rays, 0, 1);
+}
+
+/* Rays to each light per pass. */
+static uint32_t light_rays(const struct job *job)
+{
+	uint32_t wide = 0;
+
+	for (uint32_t i = 0; i < job->scene->n_lights; i++)
+		wide |= job->scene->lights[i].radius > 0;
+	return wide && job->options->mode != TRACER_PATH ? job->options->rays : 1;
+}
+
+int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	uint32_t n_rays = job->prepared.n_light_slots * n, samples = light_rays(job);
+	int err = secondary_reserve_rays(job, n_rays);
+
+	for (uint32_t i = 0; i < samples && !err; i++) {
+		const struct shadow_ray_launch *a =
+			LAUNCH(shadow_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
+			       .fragments = b->fragments, .pixels = b->pixels, .width = job->width, .shaded = b->shaded,
+			       .sample = job->pass * samples + i, .frame = frame_number(job), .n = n, .n_rays = n_rays,
+			       .rays = b->rays);
+
+		if (frame_in_packets(job))
+			err = launch_shadow_ray_packet(tr->dev, packs(n_rays), a);
+		else
+			err = launch_shadow_ray(tr->dev, n_rays, a);
+		if (!err)
+			err = ask(job, space, 1, b->rays, n_rays, i, samples);
+	}
+	return err || !hooks_has(job, HOOK_LIGHT) ? err : hooks_light(job, secondary_transport(job->options), n);
+}
+
+/* The same from the hits of n paths. */
+static int trace_hit_shadows(struct job *job, const struct accel_space *space, uint32_t transport, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	const struct emission_launch emission = emitters_of(job, space);
+	const uint32_t n_rays = job->prepared.n_light_slots * n, samples = (light_rays(job) + 3) / 4,
+		       all = n_rays + (emission.n_emitters ? n : 0);
+	const int packets = frame_in_packets(job);
+	int err = secondary_reserve_rays(job, all);
+
+	if (!err)
+		err = frame_reserve(tr, wanted, n);
+	if (!err && !packets)
+		err = launch_want_lights(tr->dev, n,
+		                         LAUNCH(want_lights, .tables = frame_tables(tr), .hits = b->path_hits,
+		                                .rays = b->path_rays, .transport = transport, .n = n,
+		                                .wanted = b->wanted));
+	for (uint32_t i = 0; i < samples && !err; i++) {
+		const struct hit_ray_launch *a =
+			LAUNCH(hit_ray, .tables = frame_tables(tr), .hits = b->path_hits, .rays = b->path_rays, .paths = b->paths,
+			       .pixels = b->pixels, .wanted = b->wanted, .transport = transport, .sample = job->pass * samples + i,
+			       .frame = frame_number(job), .n = n, .n_rays = n_rays, .out = b->rays);
+
+		err = packets ? launch_hit_ray_packet(tr->dev, packs(n), a) : launch_hit_ray(tr->dev, n_rays, a);
+		if (!err && all > n_rays)
+			err = launch_bounce_ray(tr->dev, n,
+			                        LAUNCH(bounce_ray, .tables = frame_tables(tr), .hits = b->path_hits,
+			                               .rays = b->path_rays, .paths = b->paths, .pixels = b->pixels,
+			                               .emission = emission, .sample = job->pass,
+			                               .frame = frame_number(job), .depth = job->options->depth,
+			                               .first = n_rays, .n = n, .out = b->rays));
+		if (!err)
+			err = ask(job, space, 1, b->rays, all, i, samples);
+	}
+	return err || !hooks_has(job, HOOK_LIGHT) ? err : hooks_light_hits(job, transport, n);
+}
+
+/* --- Openness ---------------------------------------------------------------------------------------------------- */
+
+int secondary_openness(struct job *job, const struct accel_space *space, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	uint32_t samples = job->options->rays;
+	int err = secondary_reserve_rays(job, n);
+
+	for (uint32_t i = 0; i < samples && !err; i++) {
+		err = launch_ao_ray(tr->dev, n, LAUNCH(ao_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
+		                                       .fragments = b->fragments, .pixels = b->pixels, .width = job->width,
+		                                       .shaded = b->shaded, .sample = job->pass * samples + i,
+		                                       .reach = job->options->reach > 0 ? job->options->reach : 1e30f, .n = n,
+		                                       .rays = b->rays));
+		if (!err)
+			err = ask(job, space, 0, b->rays, n, i, samples);
+	}
+	if (err)
+		return err;
+	return launch_ao_shade(tr->dev, n,
+	                       LAUNCH(ao_shade, .visibility = b->visibility,
+	                              .over_gl = job->options->mode == TRACER_AO_PHONG, .n = n, .shaded = b->shaded));
+}
+
+/* --- Paths ------------------------------------------------------------------------------------------------------- */
+
+/* Find the emissive surfaces that each of n fragments sees, into buffers.visibility. */
+static int ask_emitters(struct job *job, const struct accel_space *space, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	const struct emission_launch emission = emitters_of(job, space);
+	int err = emission.n_emitters ? secondary_reserve_rays(job, n) : 0;
+
+	if (err || !emission.n_emitters)
+		return err;
+	err = launch_leave_ray(tr->dev, n,
+	                       LAUNCH(leave_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
+	                              .fragments = b->fragments, .pixels = b->pixels, .width = job->width,
+	                              .shaded = b->shaded, .emission = emission, .sample = job->pass,
+	                              .frame = frame_number(job), .n = n, .rays = b->rays));
+	return err ? err : secondary_ask(job, space, 1, b->rays, n);
+}
+
+static int leave(struct job *job, const struct list *list, const struct accel_space *space, uint32_t transport,
+                 uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	const struct leave_launch *a;
+	int err = reserve_next(job, list, (size_t)PATHS_PER_FRAGMENT * n);
+
+	if (!err)
+		err = frame_reserve(tr, next_counts, n);
+	if (err)
+		return err;
+	a = LAUNCH(leave, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
+	           .pixels = b->pixels, .width = job->width, .transport = transport, .sample = job->pass,
+	           .frame = frame_number(job), .emission = emitters_of(job, space), .visibility = b->visibility, .n = n,
+	           .shaded = b->shaded,
+	           .next_rays = *list->next_rays, .next_paths = *list->next_paths, .counts = b->next_counts);
+	return frame_in_packets(job) ? launch_leave_packet(tr->dev, packs(n), a) : launch_leave(tr->dev, n, a);
+}
+
+static int look_at_sky(struct job *job, const struct accel_space *sky, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	int err = frame_reserve(tr, sky_hits, sky ? n : 1);
+
+	if (err || !sky)
+		return err;
+	err = frame_reserve(tr, sky_rays, n);
+	if (!err)
+		err = launch_sky_ray(
+			tr->dev, n,
+			LAUNCH(sky_ray, .hits = b->path_hits, .rays = b->path_rays, .n = n, .out = b->sky_rays));
+	return err ? err : intersect(job, sky, HOOK_RAYS_ON, b->sky_rays, b->sky_hits, n);
+}
+
+static int shade_hits(struct job *job, const struct list *list, const struct accel_space *space, uint32_t has_sky,
+                      uint32_t transport, uint32_t n)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	const struct shade_hit_launch *a;
+	int err = reserve_next(job, list, (size_t)PATHS_PER_HIT * n);
+
+	if (!err)
+		err = frame_reserve(tr, next_counts, n);
+	if (!err)
+		err = frame_reserve(tr, radiance, 3 * (size_t)n);
+	if (err)
+		return err;
+	a = LAUNCH(shade_hit, .tables = frame_tables(tr), .hits = b->path_hits, .sky = b->sky_hits, .has_sky = has_sky,
+	           .rays = *list->rays, .paths = *list->paths, .pixels = b->pixels, .visibility = b->visibility,
+	           .n_slots = job->prepared.n_light_slots, .transport = transport, .sample = job->pass,
+	           .frame = frame_number(job), .emission = emitters_of(job, space), .depth = job->options->depth,
+	           .most = job->options->clamp, .background = b->background, .shaded = b->shaded, .n = n,
+	           .radiance = b->radiance, .next_rays = *list->next_rays, .next_paths = *list->next_paths,
+	           .counts = b->next_counts);
+	return frame_in_packets(job) ? launch_shade_hit_packet(tr->dev, packs(n), a) : launch_shade_hit(tr->dev, n, a);
+}
+
+int secondary_follow(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t slots,
+                     uint32_t n, int see)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	const struct list list = path_list(job);
+	const uint32_t transport = secondary_transport(job->options);
+	int err = frame_upload(tr, background, job->background, 4);
+
+	if (!err)
+		err = frame_reserve(tr, visibility, 3);
+	if (!err)
+		err = gather_list(job, &list, slots, &n);
+	for (uint32_t i = 0; i < job->options->depth + MOST_LAYERS && n && !err; i++) {
+		err = frame_reserve(tr, path_hits, n);
+		if (!err)
+			err = intersect(job, space, i == 0 && see ? HOOK_RAYS_FIRST : HOOK_RAYS_ON, *list.rays, b->path_hits, n);
+		if (!err && i == 0 && see)
+			err = hooks_see(job, n);
+		if (!err)
+			err = look_at_sky(job, sky, n);
+		if (!err && (job->prepared.n_light_slots || emitters_of(job, space).n_emitters))
+			err = trace_hit_shadows(job, space, transport, n);
+		if (!err)
+			err = shade_hits(job, &list, space, sky != NULL, transport, n);
+		if (!err && hooks_has(job, HOOK_ANY_HIT | HOOK_CLOSEST_HIT | HOOK_MISS))
+			err = hooks_hit(job, space, transport, n);
+		if (!err)
+			err = launch_credit(tr->dev, n,
+			                    LAUNCH(credit, .paths = *list.paths, .radiance = b->radiance,
+			                           .transport = transport, .n = n, .shaded = b->shaded));
+		if (!err)
+			err = gather_list(job, &list, PATHS_PER_HIT, &n);
+	}
+	return err;
+}
+
+int secondary_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n)
+{
+	const struct list list = path_list(job);
+	int err = frame_reserve(job->tr, visibility, 3);
+
+	if (!err)
+		err = ask_emitters(job, space, n);
+	if (!err)
+		err = leave(job, &list, space, secondary_transport(job->options), n);
+	if (!err && hooks_has(job, HOOK_ANY_HIT | HOOK_CLOSEST_HIT))
+		err = hooks_ways(job, secondary_transport(job->options), n);
+	return err ? err : secondary_follow(job, space, sky, PATHS_PER_FRAGMENT, n, 0);
+}
+
+/* --- Photons ----------------------------------------------------------------------------------------------------- */
+
+/* Trace n photons to their next hits. photons: room for n */
+static int send(struct job *job, const struct list *list, const struct accel_space *space, uint32_t pass, uint32_t n,
+                struct photon *photons)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	int err;
+
+	if ((err = frame_reserve(tr, path_hits, n)) || (err = frame_reserve(tr, photons, n)) ||
+	    (err = frame_reserve(tr, next_counts, n)) || (err = reserve_next(job, list, (size_t)PATHS_PER_HIT * n)) ||
+	    (err = intersect(job, space, HOOK_RAYS_ON, *list->rays, b->path_hits, n)) ||
+	    (err = launch_photon(tr->dev, n,
+	                         LAUNCH(photon, .tables = frame_tables(tr), .hits = b->path_hits, .rays = *list->rays,
+	                                .paths = *list->paths, .depth = job->options->depth, .pass = pass, .n = n,
+	                                .photons = b->photons, .next_rays = *list->next_rays,
+	                                .next_paths = *list->next_paths, .counts = b->next_counts))))
+		return err;
+	return device_read(tr->dev, b->photons.buffer, 0, photons, n * sizeof(*photons));
+}
+
+int secondary_photons(struct job *job, const struct accel_space *space, uint32_t pass, uint32_t n,
+                      void (*take)(void *user, const struct photon *photons, uint32_t n), void *user)
+{
+	const struct list list = path_list(job);
+	struct photon *photons = malloc(((size_t)n + 1) * sizeof(*photons));
+	int err = photons ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory for %u photons", n);
+
+	while (n && !err) {
+		err = send(job, &list, space, pass, n, photons);
+		if (err)
+			break;
+		take(user, photons, n);
+		err = gather_list(job, &list, PATHS_PER_HIT, &n);
+	}
+	free(photons);
+	return err;
+}

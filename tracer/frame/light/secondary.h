@@ -1,0 +1,45 @@
+/* Rays from the fragments of the list: to lights, into the surroundings, reflected, transmitted. Functions return 0 or
+ * ERR_SYSTEM (reported). */
+#pragma once
+
+#include "tracer/frame/common/frame.h"
+
+/** Space that rays from a view's fragments may hit: its surfaces, or its skies. NULL: there is nothing to hit. */
+const struct accel_space *secondary_space(const struct job *job, uint32_t view, int sky);
+
+/** How points are lit, and which rays leave them: TRANSPORT_*. */
+uint32_t secondary_transport(const struct tracer_options *options);
+
+/** Trace rays from all n fragments of the list to all lights, into buffers.visibility[slot][fragment], in red, green
+ * and blue. */
+int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t n);
+
+/** Make room for rays to lights in buffers.rays, and for their results. */
+int secondary_reserve_rays(struct job *job, size_t n_rays);
+
+/** Trace rays that exist already, into buffers.visibility[ray]. to_lights: 0 for rays into the surroundings */
+int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
+                  uint32_t n_rays);
+
+/** Compute how open the surroundings of all n fragments are, which replaces or modulates their colours. */
+int secondary_openness(struct job *job, const struct accel_space *space, uint32_t n);
+
+/** Follow the reflected, refracted and scattered rays of all n fragments bounce by bounce, and add their light to the
+ * fragments' parts. */
+int secondary_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n);
+
+/**
+ * Follow paths: the next rays of n items, up to `slots` each (buffers.next_path_rays, next_paths and next_counts),
+ * bounce by bounce, and add their light to the parts of the fragments that they come from.
+ * @param see  1: the first hits are the surfaces that their pixels show (hooks_see)
+ */
+int secondary_follow(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t slots,
+                     uint32_t n, int see);
+
+/**
+ * Follow n photons, whose rays and paths are in buffers.path_rays and paths (kernels/frame/light/photon.h).
+ * @param pass  seed of random numbers
+ * @param take  called with the photons after each step; a photon with number SCENE_NONE hit nothing
+ */
+int secondary_photons(struct job *job, const struct accel_space *space, uint32_t pass, uint32_t n,
+                      void (*take)(void *user, const struct photon *photons, uint32_t n), void *user);

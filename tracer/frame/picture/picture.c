@@ -1,0 +1,150 @@
+#include "tracer/frame/picture/picture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/err.h"
+#include "kernels/frame/plain/plain.h"
+#include "kernels/gl/pixel.h"
+
+/* Copy the band's pixels from a picture; NULL: unknown. */
+static void start_pixels(const struct job *job, const struct scene_picture *start, struct frame_pixel *pixels)
+{
+	memset(pixels, 0, job->n_pixels * sizeof(*pixels));
+	for (uint32_t k = 0; k < job->n_pixels; k++) {
+		struct frame_pixel *p = &pixels[k];
+		const size_t i = frame_first_pixel(job) + (size_t)k;
+		float gl[4] = { 0 };
+
+		for (int c = 0; c < 4 && start; c++)
+			gl[c] = start->colors ? start->colors[4 * i + (size_t)c] : (float)start->rgba[4 * i + (size_t)c] / 255.0f;
+		pixel_start(p, gl, start ? start->depth[i] : 0, job->bits);
+		p->stencil = start ? start->stencil[i] : 0;
+		if (!start)
+			p->unknown = PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_DEPTH | PIXEL_UNKNOWN_STENCIL;
+	}
+}
+
+int picture_upload_start(struct job *job)
+{
+	const struct scene_picture *start = job->scene->start;
+	struct frame_pixel *pixels = malloc(job->n_pixels * sizeof(*pixels));
+	int err = 0;
+
+	if (!pixels)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", job->width, job->height);
+	for (uint32_t i = 0; i < job->n_samples && !err; i++) {
+		if (i == 0 || (start && start->samples))
+			start_pixels(job, start && start->samples && job->n_samples > 1 ? &start->samples[i] : start, pixels);
+		err = device_write(job->tr->dev, frame_sample(job, i)->buffer, 0, pixels, job->n_pixels * sizeof(*pixels));
+	}
+	free(pixels);
+	return err;
+}
+
+/* Read the band's pixels, or those of one sample, from the device, rounded to GL's frame buffer. */
+static int read_pixels(const struct job *job, union buffer_frame_pixel from, struct frame_pixel *pixels,
+                       struct scene_picture *picture)
+{
+	const struct scene *scene = job->scene;
+	int err = device_read(job->tr->dev, from.buffer, 0, pixels, job->n_pixels * sizeof(*pixels));
+
+	for (uint32_t k = 0; k < job->n_pixels && !err; k++) {
+		const struct frame_pixel *p = &pixels[k];
+		const size_t i = frame_first_pixel(job) + (size_t)k;
+
+		for (int c = 0; c < 4; c++)
+			picture->rgba[4 * i + (size_t)c] = (uint8_t)rintf(clamp01(p->gl[c]) * 255.0f);
+		if (picture->colors)
+			memcpy(picture->colors + 4 * i, p->gl, sizeof(p->gl));
+		if (!scene->alpha_bits)
+			picture->rgba[4 * i + 3] = 255;
+		if (!scene->alpha_bits && picture->colors)
+			picture->colors[4 * i + 3] = 1;
+		picture->depth[i] = scene->depth_bits > 24 ? p->depth >> 8 : p->depth; /* at most 24 in pictures */
+		picture->stencil[i] = (uint8_t)p->stencil;
+	}
+	return err;
+}
+
+int picture_read_band(const struct job *job, struct scene_picture *picture)
+{
+	struct frame_pixel *pixels = malloc(job->n_pixels * sizeof(*pixels));
+	int err;
+
+	if (!pixels)
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %u pixels", job->n_pixels);
+	err = read_pixels(job, job->tr->buffers.frame, pixels, picture);
+	for (uint32_t i = 0; i < SCENE_SAMPLES && picture->samples && job->scene->samples > 1 && !err; i++)
+		err = read_pixels(job, job->tr->buffers.samples[i], pixels, &picture->samples[i]);
+	free(pixels);
+	return err;
+}
+
+/* Read a plane of the band with one word per pixel. */
+static int take_words(const struct job *job, const struct device_buffer *buffer, void *out)
+{
+	return device_read(job->tr->dev, buffer, 0, out, job->n_pixels * sizeof(uint32_t));
+}
+
+int picture_count_rows(struct job *job)
+{
+	const uint32_t n = plain_columns(job->width) * job->n_rows;
+	const void *mapped;
+	int err = device_map(job->tr->dev, job->tr->buffers.unknown.buffer, n * sizeof(uint32_t), 1, &mapped);
+
+	if (err)
+		return err;
+	for (uint32_t i = 0; i < n; i++)
+		job->unknown += (uint32_t)__builtin_popcount(((const uint32_t *)mapped)[i]);
+	return device_unmap(job->tr->dev, job->tr->buffers.unknown.buffer, mapped);
+}
+
+static int is_unknown(const struct frame_pixel *p)
+{
+	return (p->unknown & (PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_TEST)) != 0;
+}
+
+int picture_count_band(struct job *job)
+{
+	const struct frame_pixel *pixels;
+	const void *mapped;
+	int err = device_map(job->tr->dev, job->tr->buffers.frame.buffer, job->n_pixels * sizeof(*pixels), 1, &mapped);
+
+	if (err)
+		return err;
+	pixels = mapped;
+	for (uint32_t i = 0; i < job->n_pixels; i++)
+		job->unknown += (uint32_t)is_unknown(&pixels[i]);
+	return device_unmap(job->tr->dev, job->tr->buffers.frame.buffer, mapped);
+}
+
+int picture_take_band(struct job *job, uint32_t stencil)
+{
+	struct tracer *tr = job->tr;
+	const struct frame_buffers *b = &tr->buffers;
+	const struct scene *scene = job->scene;
+	const size_t first = frame_first_pixel(job);
+	const uint32_t rows = plain_columns(job->width) * job->n_rows;
+	int err = frame_reserve(tr, colors, job->n_pixels);
+
+	if (!err)
+		err = frame_reserve(tr, depths, job->n_pixels);
+	if (!err)
+		err = launch_layered_picture(tr->dev, rows,
+		                             LAUNCH(layered_picture, .kept = b->kept_pixels, .width = job->width,
+		                                    .height = job->n_rows, .bits = job->bits, .colors = b->colors,
+		                                    .depths = b->depths, .unknown = b->unknown));
+	if (!err)
+		err = take_words(job, b->colors.buffer, job->picture->rgba + 4 * first);
+	if (!err)
+		err = take_words(job, b->depths.buffer, job->picture->depth + first);
+	if (!err)
+		err = picture_count_rows(job);
+	if (scene->start)
+		memcpy(job->picture->stencil + first, scene->start->stencil + first, job->n_pixels);
+	else
+		memset(job->picture->stencil + first, (int)(stencil & pixel_bits_mask(pixel_stencil_bits(job->bits))), job->n_pixels);
+	return err;
+}
