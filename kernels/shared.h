@@ -162,9 +162,10 @@ struct instance {
 	uint32_t material, view;  /* indices in scene.h's arrays */
 	uint32_t draw;
 	uint32_t scene_instance;  /* index in scene.instances (screen geometry may be split into several instances) */
+	uint32_t opacity;         /* how it stops rays to lights: kernels/rays/opacity.h */
 	float centre[3], radius;  /* centre of its BLAS's box, object space; half of width + height + depth */
 };
-SHARED_SIZE(struct instance, 168);
+SHARED_SIZE(struct instance, 172);
 
 /* One view as the camera kernels see it. */
 struct view {

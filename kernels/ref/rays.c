@@ -5,6 +5,7 @@
 
 #include "kernels/kernels.h"
 #include "kernels/rays/compressed.h"
+#include "kernels/rays/opacity.h"
 
 /* Type of the trees' nodes. */
 enum tree { TREE_ROWS, TREE_BINARY, TREE_COMPRESSED };
@@ -19,10 +20,12 @@ struct args {
 	const struct instance *instances;
 	const void *nodes, *triangles;
 	enum tree tree;
+	const uint32_t *opacity; /* NULL: nothing is known of surfaces */
+	uint32_t passing, to_lights; /* as in kernels.h */
 };
 #define ARGS_OF(a, kind) \
 	{ (a)->n_rays, (a)->rays, (a)->top_first, (a)->top, (a)->instance_list, (a)->instances, (a)->nodes, (a)->triangles, \
-	kind }
+	kind, NULL, 0, 0 }
 
 /* State of a ray during traversal. */
 struct walk {
@@ -31,7 +34,9 @@ struct walk {
 	float t_min;
 	struct hit hit; /* hit.t: end of the ray so far */
 	int any;        /* 1: any hit will do */
-	uint32_t to_lights, passes; /* as in kernels/rays/rays.h; for the instance that it walks */
+	int passing;    /* 1: it ignores surfaces that let all light pass */
+	uint32_t passes, opacity;   /* the instance's, as in kernels/rays/rays.h and opacity.h */
+	uint32_t asks;              /* 1: it hit a surface that has to be sampled */
 };
 
 static int done(const struct walk *w)
@@ -56,6 +61,24 @@ static float largest(const float v[3])
 	return fmaxf(fmaxf(fabsf(v[0]), fabsf(v[1])), fabsf(v[2]));
 }
 
+/* 1 if a ray meets a triangle on a side, at u, v: for any-hit queries, if it is known to stop there. */
+static int meets(struct walk *w, uint32_t primitive, uint32_t side, float u, float v)
+{
+	const struct args *a = w->args;
+	uint32_t word, does;
+
+	if (w->passes & side)
+		return 0;
+	if (!a->opacity || !w->passing)
+		return 1;
+	word = opacity_word(a->opacity, w->opacity, primitive);
+	if (opacity_sides(word, a->to_lights) & side)
+		return 0;
+	does = opacity_at(a->opacity, w->opacity, word, u, v);
+	w->asks |= does == OPACITY_ASK;
+	return w->any ? does == OPACITY_STOPS : does != OPACITY_PASSES;
+}
+
 static void try_triangle(struct walk *w, const float v0[3], const float e1[3], const float e2[3], uint32_t instance,
                          uint32_t primitive)
 {
@@ -72,8 +95,9 @@ static void try_triangle(struct walk *w, const float v0[3], const float e1[3], c
 	t = dot(e2, q) * inverse;
 	/* A determinant of 0 makes u and v NaN or infinite, which fails here. */
 	if (u >= -RAYS_EDGE_SLACK && v >= -RAYS_EDGE_SLACK && u + v <= 1 + RAYS_EDGE_SLACK && t >= w->t_min &&
-	    (t < w->hit.t || (t == w->hit.t && primitive < w->hit.primitive)) && !(w->passes & rays_side(inverse)) &&
-	    RAYS_FLAT * largest(e1) * largest(e2) * (largest(w->d) * fabsf(inverse)) < 1)
+	    (t < w->hit.t || (t == w->hit.t && primitive < w->hit.primitive)) &&
+	    RAYS_FLAT * largest(e1) * largest(e2) * (largest(w->d) * fabsf(inverse)) < 1 &&
+	    meets(w, primitive, rays_side(inverse), u, v))
 		w->hit = (struct hit){ t, u, v, instance, primitive };
 }
 
@@ -245,7 +269,8 @@ static void walk_instance(struct walk *w, uint32_t instance_index)
 	w->hit = (struct hit){ eye.hit.t - shift, 0, 0, SCENE_NONE, SCENE_NONE };
 	if (shift > 0 && eye.hit.instance != SCENE_NONE)
 		w->hit.t += 3e-7f * eye.hit.t; /* t + shift decides */
-	w->passes = rays_passes(instance->flags, w->to_lights);
+	w->passes = w->passing ? rays_passes(instance->flags, w->args->to_lights) : 0;
+	w->opacity = instance->opacity;
 	if (in_range)
 		walk_blas(w, instance_index);
 	w->hit.t += shift;
@@ -304,13 +329,16 @@ static void walk_top_binary(struct walk *w)
 	}
 }
 
-static struct hit walk_ray(const struct args *args, uint32_t index, int any, uint32_t to_lights)
+/* asks: receives 1 if surfaces have to be sampled */
+static struct hit walk_ray(const struct args *args, uint32_t index, int any, uint32_t *asks)
 {
 	const struct ray *ray = &args->rays[index];
-	struct walk w = { .args = args, .t_min = ray->t_min, .any = any, .to_lights = to_lights };
+	struct walk w = { .args = args, .t_min = fabsf(ray->t_min), .any = any };
 
 	w.hit = (struct hit){ ray->t_max, 0, 0, SCENE_NONE, SCENE_NONE };
-	if (!(ray->t_min <= ray->t_max))
+	w.passing = any || (args->passing && !signbit(ray->t_min));
+	*asks = 0;
+	if (!(w.t_min <= ray->t_max))
 		return w.hit;
 	for (int a = 0; a < 3; a++) {
 		if (!isfinite(ray->o[a]) || !isfinite(ray->d[a]))
@@ -323,29 +351,35 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any, uin
 		walk_top_rows(&w);
 	else
 		walk_top_binary(&w);
+	*asks = w.asks;
 	return w.hit;
 }
 
-/* The twins of one argument list: any hit, and nearest hit. */
-#define TWINS(list, tree) \
+/* The twins of one argument list: any hit, and nearest hit. KNOWN: sets the opacity that the nearest-hit kernel uses */
+#define TWINS(list, tree, words, KNOWN) \
 	void occlude_##list##_c(const struct occlude_##list##_arguments *a, size_t first, size_t last) \
 	{ \
-		const struct args args = ARGS_OF(a, tree); \
+		struct args args = ARGS_OF(a, tree); \
+		uint32_t asks; \
 \
+		args.opacity = words; \
+		args.to_lights = a->to_lights; \
 		for (size_t i = first; i < last && i < a->n_rays; i++) \
-			a->occluded[i] = walk_ray(&args, (uint32_t)i, 1, a->to_lights).instance != SCENE_NONE; \
+			a->occluded[i] = walk_ray(&args, (uint32_t)i, 1, &asks).instance != SCENE_NONE ? 1 : 2 * asks; \
 	} \
 \
 	void intersect_##list##_c(const struct intersect_##list##_arguments *a, size_t first, size_t last) \
 	{ \
-		const struct args args = ARGS_OF(a, tree); \
+		struct args args = ARGS_OF(a, tree); \
+		uint32_t asks; \
 \
+		KNOWN \
 		for (size_t i = first; i < last && i < a->n_rays; i++) \
-			a->hits[i] = walk_ray(&args, (uint32_t)i, 0, 0); \
+			a->hits[i] = walk_ray(&args, (uint32_t)i, 0, &asks); \
 	}
-TWINS(wide, TREE_ROWS)
-TWINS(binary, TREE_BINARY)
-TWINS(compressed, TREE_COMPRESSED)
+TWINS(wide, TREE_ROWS, a->opacity, args.opacity = a->opacity; args.passing = a->passing; args.to_lights = a->to_lights;)
+TWINS(binary, TREE_BINARY, NULL, )
+TWINS(compressed, TREE_COMPRESSED, NULL, )
 
 void occlude_packet_c(const struct occlude_wide_arguments *a, size_t first, size_t last)
 {

@@ -1,6 +1,7 @@
 /* The occlude and intersect kernels against their C twins, and the twins against a loop over all triangles. */
 #include "tests/check/random_scene.h"
 
+#include "kernels/rays/opacity.h"
 #include "kernels/rays/rays.h"
 #include "tests/case.h"
 #include "tests/driver.h"
@@ -287,6 +288,121 @@ START_TEST(kernels_agree_with_twins)
 }
 END_TEST
 
+/* Give the instances opacity (kernels/rays/opacity.h): one of each kind, and random words. @return the words */
+static struct device_buffer *know_surfaces(struct random_scene *s, struct device *dev)
+{
+	static uint32_t words[INSTANCES * MAX_TRIANGLES * (1 + 4)];
+	uint32_t n = 0;
+
+	for (uint32_t k = 0; k < INSTANCES; k++) {
+		const uint32_t triangles = s->mesh_list[s->scene_instances[k].mesh]->primitive_count;
+
+		s->instances[k].opacity = k % 3 ? OPACITY_WORDS + n : 1 + k / 3; /* OPACITY_PASSES, OPACITY_ASK */
+		for (uint32_t i = 0; i < triangles && k % 3; i++) {
+			words[n + i] = (uint32_t)between(s, 0, 16) | 3u << OPACITY_LEVEL | (triangles + 4 * i) << OPACITY_PLACE;
+			for (uint32_t cell = 0; cell < 64; cell++) {
+				uint32_t *word = &words[n + triangles + 4 * i + cell / 16];
+
+				*word = (cell % 16 ? *word : 0) | (uint32_t)between(s, 0, 3) << 2 * (cell % 16);
+			}
+		}
+		n += k % 3 ? 5 * triangles : 0;
+	}
+	return make_buffer(dev, words, sizeof(words));
+}
+
+/* Trace rays that know the surfaces; `hits` of rays to lights that ignore what lets all light pass. */
+static void run_knowing(struct random_scene *s, struct device *dev, const struct ray *rays, enum way way,
+                        struct result *out)
+{
+	const uint32_t random = s->random;
+	struct device_buffer *b[] = { make_buffer(dev, rays, N_RAYS * sizeof(*rays)), know_surfaces(s, dev),
+		                      make_buffer(dev, out->occluded, sizeof(out->occluded)),
+		                      make_buffer(dev, out->hits, sizeof(out->hits)) };
+	struct traverse_trees trees = { .opacity.buffer = b[1] };
+	struct traverse_rays r = { .space = &s->spaces[0], .n = N_RAYS, .passing = 1, .rays.buffer = b[0],
+		                   .occluded.buffer = b[2], .hits.buffer = b[3] };
+
+	s->random = random; /* the same words for each device */
+	ck_assert_int_eq(traverse_upload_pools(dev, s->accel, &trees), 0);
+	ck_assert_int_eq(traverse_upload_tlases(dev, s->accel, s->instances, INSTANCES, &trees), 0);
+	ck_assert_int_eq(traverse_rays(dev, ways[way].kernels[0], &trees, &r), 0);
+	ck_assert_int_eq(device_read(dev, b[2], 0, out->occluded, sizeof(out->occluded)), 0);
+	r.to_lights = 1;
+	for (int kind = 0; kind < 2; kind++)
+		ck_assert_int_eq(traverse_rays(dev, ways[way].kernels[kind], &trees, &r), 0);
+	ck_assert_int_eq(device_read(dev, b[2], 0, out->to_lights, sizeof(out->to_lights)), 0);
+	ck_assert_int_eq(device_read(dev, b[3], 0, out->hits, sizeof(out->hits)), 0);
+	traverse_release(dev, &trees);
+	for (size_t i = 0; i < sizeof(b) / sizeof(b[0]); i++)
+		device_release(dev, &b[i]);
+}
+
+/* The answers of one ray must not contradict each other. */
+static void check_knowledge(const struct result *r, const struct ray *rays, const char *what, uint32_t counts[3])
+{
+	for (uint32_t i = 0; i < N_RAYS; i++) {
+		const int marked = signbit(rays[i].t_min) != 0;
+
+		ck_assert_uint_le(r->to_lights[i], 2);
+		ck_assert_msg(marked || (r->to_lights[i] != 0) == (r->hits[i].instance != SCENE_NONE),
+		              "%s: ray %u: occluded %u, but its nearest surface is %d", what, i, r->to_lights[i],
+		              (int)r->hits[i].instance);
+		ck_assert_msg(marked || r->hits[i].instance != 0, "%s: ray %u meets what lets all light pass",
+		              what, i);
+		counts[r->to_lights[i]]++;
+	}
+}
+
+/* Rays whose hits are within rounding of a border between cells of a map. */
+#define MOST_ON_BORDERS 8u
+
+START_TEST(kernels_know_surfaces)
+{
+	struct random_scene *s = random_scene_create(seed_of_run);
+	struct ray *rays = make_rays(s);
+	struct result *want = malloc(sizeof(*want)), *got = malloc(sizeof(*got));
+	struct device_description *list = NULL;
+	struct device *reference, *dev;
+	size_t n_devices;
+	char number[32];
+
+	for (uint32_t i = 0; i < N_RAYS; i += 7)
+		rays[i].t_min = -rays[i].t_min;
+	ck_assert_int_eq(device_open("reference", 1, &reference), 0);
+	ck_assert_int_eq(device_list(&list, &n_devices), 0);
+	for (enum way way = PACKET; way <= WIDE; way++) {
+		uint32_t counts[3] = { 0 };
+
+		run_knowing(s, reference, rays, way, want);
+		check_knowledge(want, rays, ways[way].name, counts);
+		for (uint32_t i = 0; i < 3; i++)
+			ck_assert_uint_gt(counts[i], 0);
+		for (size_t k = 0; k < n_devices; k++) {
+			uint32_t differ = 0;
+
+			snprintf(number, sizeof(number), "%zu", k);
+			ck_assert_int_eq(device_open(number, 0, &dev), 0);
+			run_knowing(s, dev, rays, way, got);
+			check_knowledge(got, rays, list[k].name, counts);
+			for (uint32_t i = 0; i < N_RAYS; i++)
+				differ += want->occluded[i] != got->occluded[i] || want->to_lights[i] != got->to_lights[i] ||
+				          want->hits[i].instance != got->hits[i].instance ||
+				          want->hits[i].primitive != got->hits[i].primitive;
+			ck_assert_msg(differ <= MOST_ON_BORDERS, "%s, %s: %u of %u rays differ from the twin's", list[k].name,
+			              ways[way].name, differ, N_RAYS);
+			device_close(&dev);
+		}
+	}
+	device_close(&reference);
+	free(list);
+	free(rays);
+	free(want);
+	free(got);
+	random_scene_free(s);
+}
+END_TEST
+
 /* The tree must not matter: the nearest hit is the same to the bit, including ties. */
 START_TEST(hits_depend_on_no_tree)
 {
@@ -423,8 +539,10 @@ int main(void)
 	tcase_set_timeout(tests, 120);
 	tcase_set_timeout(devices, 120);
 	tcase_add_loop_test(tests, twins_find_what_all_triangles_give, ACCEL_BVH, N_ACCEL_KINDS);
-	if (n_kinds == 2)
+	if (n_kinds == 2) {
 		tcase_add_loop_test(devices, kernels_agree_with_twins, 0, 2 + 2 * (int)(sizeof(hard_seeds) / sizeof(hard_seeds[0])));
+		tcase_add_test(devices, kernels_know_surfaces);
+	}
 	tcase_add_loop_test(tests, hits_depend_on_no_tree, 0, n_kinds);
 	tcase_add_loop_test(tests, any_hit_and_nearest_hit_decide_alike, 0, n_kinds);
 	tcase_add_loop_test(tests, hits_depend_on_no_fitting, 0, n_kinds);

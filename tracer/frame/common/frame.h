@@ -54,7 +54,7 @@ struct tracer {
 	struct device *dev;
 	struct accel *accel;
 	size_t tree_room[N_BLAS_PARTS]; /* room of the buffers of mesh trees, in items */
-	struct pool attributes, indices, texels;
+	struct pool attributes, indices, texels, opacity;
 	struct traverse_trees trees;
 	struct frame_buffers buffers;
 	uint32_t *counts, *first; /* [pixels], host copies */

@@ -67,6 +67,7 @@ int traverse_camera(struct device *dev, enum kernel kernel, const struct travers
 int traverse_rays(struct device *dev, enum kernel kernel, const struct traverse_trees *t, const struct traverse_rays *r)
 {
 	const uint32_t packets = (r->n + RAYS_PER_ITEM - 1) / RAYS_PER_ITEM;
+	const union buffer_uint opacity = t->opacity.buffer ? t->opacity : t->instance_list;
 
 #define RAYS(list, top_of, nodes_of, triangles_of, ...) \
 	LAUNCH(list, .n_rays = r->n, .rays = r->rays, .top_first = r->space->top_of##_first, .top = t->top_of, \
@@ -75,21 +76,26 @@ int traverse_rays(struct device *dev, enum kernel kernel, const struct traverse_
 	       __VA_ARGS__)
 #define OCCLUDE(list, top_of, nodes_of, triangles_of) \
 	RAYS(list, top_of, nodes_of, triangles_of, .to_lights = r->to_lights, .occluded = r->occluded)
+#define OCCLUDE_WIDE \
+	RAYS(occlude_wide, top8, nodes8, triangles8, .opacity = opacity, .to_lights = r->to_lights, .occluded = r->occluded)
 #define INTERSECT(list, top_of, nodes_of, triangles_of) RAYS(list, top_of, nodes_of, triangles_of, .hits = r->hits)
+#define INTERSECT_WIDE \
+	RAYS(intersect_wide, top8, nodes8, triangles8, .opacity = opacity, .passing = r->passing, .to_lights = r->to_lights, \
+	     .hits = r->hits)
 
 	switch (kernel) {
 	case KERNEL_occlude_packet:
-		return launch_occlude_packet(dev, packets, OCCLUDE(occlude_wide, top8, nodes8, triangles8));
+		return launch_occlude_packet(dev, packets, OCCLUDE_WIDE);
 	case KERNEL_occlude_wide:
-		return launch_occlude_wide(dev, r->n, OCCLUDE(occlude_wide, top8, nodes8, triangles8));
+		return launch_occlude_wide(dev, r->n, OCCLUDE_WIDE);
 	case KERNEL_occlude_binary:
 		return launch_occlude_binary(dev, r->n, OCCLUDE(occlude_binary, top2, nodes2, triangles));
 	case KERNEL_occlude_compressed:
 		return launch_occlude_compressed(dev, r->n, OCCLUDE(occlude_compressed, top2, nodes8c, triangles8c));
 	case KERNEL_intersect_packet:
-		return launch_intersect_packet(dev, packets, INTERSECT(intersect_wide, top8, nodes8, triangles8));
+		return launch_intersect_packet(dev, packets, INTERSECT_WIDE);
 	case KERNEL_intersect_wide:
-		return launch_intersect_wide(dev, r->n, INTERSECT(intersect_wide, top8, nodes8, triangles8));
+		return launch_intersect_wide(dev, r->n, INTERSECT_WIDE);
 	case KERNEL_intersect_binary:
 		return launch_intersect_binary(dev, r->n, INTERSECT(intersect_binary, top2, nodes2, triangles));
 	case KERNEL_intersect_compressed:

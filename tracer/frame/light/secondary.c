@@ -3,10 +3,12 @@
 #include <stdlib.h>
 
 #include "base/err.h"
+#include "kernels/rays/opacity.h"
 #include "tracer/frame/hook/hook_objects.h"
 #include "tracer/frame/hook/hooks.h"
 #include "tracer/frame/light/emitters.h"
 #include "tracer/frame/light/scan.h"
+#include "tracer/frame/place/opacity.h"
 
 /* Most transmitting surfaces in a row that a ray to a light may pass, besides its bounces. */
 #define MOST_LAYERS 32u
@@ -41,7 +43,7 @@ static uint32_t packs(uint32_t n)
 	return (n + SHADE_PACKET - 1) / SHADE_PACKET;
 }
 
-/* Find which of n rays hit anything in a space. */
+/* Find which of n rays are stopped in a space: 1, or 2 if surfaces have to be sampled (kernels/rays/opacity.h). */
 static int occlude(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
                    union buffer_uint occluded, uint32_t n)
 {
@@ -53,10 +55,13 @@ static int occlude(struct job *job, const struct accel_space *space, uint32_t to
 }
 
 /* Find the nearest hits of rays. whose: kind of rays */
-static int intersect(struct job *job, const struct accel_space *space, enum hook_rays_of whose, union buffer_ray rays,
-                     union buffer_hit hits, uint32_t n)
+static int intersect(struct job *job, const struct accel_space *space, enum hook_rays_of whose, uint32_t to_lights,
+                     union buffer_ray rays, union buffer_hit hits, uint32_t n)
 {
-	const struct traverse_rays r = { .space = space, .n = n, .rays = rays, .hits = hits };
+	const struct traverse_rays r = { .space = space, .n = n, .to_lights = to_lights,
+		                         .passing = whose == HOOK_RAYS_TO_LIGHTS && opacity_is_known(job, space) &&
+		                                    !hooks_has(job, HOOK_ANY_HIT),
+		                         .rays = rays, .hits = hits };
 	struct device *dev = job->tr->dev;
 	int err = space->n_nodes ?
 	                  traverse_rays(dev, traverse_families[device_family(dev)].intersect, &job->tr->trees, &r) :
@@ -167,13 +172,14 @@ static int walk_layers(struct job *job, const struct accel_space *space, uint32_
 	int err = start_walk(job, &list, rays, n_rays, weight, &n);
 
 	for (uint32_t i = 0; i < MOST_LAYERS && n && !err; i++) {
-		err = intersect(job, space, HOOK_RAYS_TO_LIGHTS, *list.rays, b->shadow_hits, n);
+		err = intersect(job, space, HOOK_RAYS_TO_LIGHTS, to_lights, *list.rays, b->shadow_hits, n);
 		if (!err)
 			err = launch_shadow_walk(tr->dev, n,
 			                         LAUNCH(shadow_walk, .tables = frame_tables(tr), .hits = b->shadow_hits,
-			                                .rays = *list.rays, .paths = *list.paths, .to_lights = to_lights, .n = n,
-			                                .visibility = b->visibility, .next_rays = *list.next_rays,
-			                                .next_paths = *list.next_paths, .counts = b->next_counts));
+			                                .rays = *list.rays, .paths = *list.paths, .to_lights = to_lights,
+			                                .least = weight * OPACITY_LEAST, .n = n, .visibility = b->visibility,
+			                                .next_rays = *list.next_rays, .next_paths = *list.next_paths,
+			                                .counts = b->next_counts));
 		if (!err && hooks_has(job, HOOK_ANY_HIT))
 			err = hooks_walk(job, secondary_transport(job->options), n);
 		if (!err)
@@ -188,7 +194,8 @@ static int ask(struct job *job, const struct accel_space *space, uint32_t to_lig
                uint32_t n_rays, uint32_t sample, uint32_t samples)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
-	const int through = job->prepared.has_transparency || hooks_has(job, HOOK_ANY_HIT);
+	const int asks = hooks_has(job, HOOK_ANY_HIT), transparent = job->prepared.has_transparency,
+		  through = asks || (transparent && !opacity_is_known(job, space));
 	float weight = 1.0f / (float)samples;
 	int err = occlude(job, space, to_lights, rays, b->occluded, n_rays);
 
@@ -197,7 +204,7 @@ static int ask(struct job *job, const struct accel_space *space, uint32_t to_lig
 		                                                     .through = (uint32_t)through, .n = n_rays,
 		                                                     .occluded = b->occluded,
 		                                                     .visibility = b->visibility));
-	return err || !(to_lights || through) ? err : walk_layers(job, space, to_lights, rays, n_rays, weight);
+	return err || !(to_lights || transparent || asks) ? err : walk_layers(job, space, to_lights, rays, n_rays, weight);
 }
 
 int secondary_reserve_rays(struct job *job, size_t n_rays)
@@ -368,7 +375,7 @@ static int look_at_sky(struct job *job, const struct accel_space *sky, uint32_t 
 		err = launch_sky_ray(
 			tr->dev, n,
 			LAUNCH(sky_ray, .hits = b->path_hits, .rays = b->path_rays, .n = n, .out = b->sky_rays));
-	return err ? err : intersect(job, sky, HOOK_RAYS_ON, b->sky_rays, b->sky_hits, n);
+	return err ? err : intersect(job, sky, HOOK_RAYS_ON, 0, b->sky_rays, b->sky_hits, n);
 }
 
 static int shade_hits(struct job *job, const struct list *list, const struct accel_space *space, uint32_t has_sky,
@@ -411,7 +418,7 @@ int secondary_follow(struct job *job, const struct accel_space *space, const str
 	for (uint32_t i = 0; i < job->options->depth + MOST_LAYERS && n && !err; i++) {
 		err = frame_reserve(tr, path_hits, n);
 		if (!err)
-			err = intersect(job, space, i == 0 && see ? HOOK_RAYS_FIRST : HOOK_RAYS_ON, *list.rays, b->path_hits, n);
+			err = intersect(job, space, i == 0 && see ? HOOK_RAYS_FIRST : HOOK_RAYS_ON, 0, *list.rays, b->path_hits, n);
 		if (!err && i == 0 && see)
 			err = hooks_see(job, n);
 		if (!err)
@@ -458,7 +465,7 @@ static int send(struct job *job, const struct list *list, const struct accel_spa
 
 	if ((err = frame_reserve(tr, path_hits, n)) || (err = frame_reserve(tr, photons, n)) ||
 	    (err = frame_reserve(tr, next_counts, n)) || (err = reserve_next(job, list, (size_t)PATHS_PER_HIT * n)) ||
-	    (err = intersect(job, space, HOOK_RAYS_ON, *list->rays, b->path_hits, n)) ||
+	    (err = intersect(job, space, HOOK_RAYS_ON, 0, *list->rays, b->path_hits, n)) ||
 	    (err = launch_photon(tr->dev, n,
 	                         LAUNCH(photon, .tables = frame_tables(tr), .hits = b->path_hits, .rays = *list->rays,
 	                                .paths = *list->paths, .depth = job->options->depth, .pass = pass, .n = n,

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "scene/mesa.h"
 #include "tracer/frame/hook/hook_objects.h"
+#include "tracer/frame/place/opacity.h"
 #include "tracer/frame/place/perspective.h"
 #include "tracer/frame/place/upload.h"
 #include "tracer/frame/prepare/expand.h"
@@ -314,6 +315,8 @@ static int build_trees(struct job *job)
 		err = upload_indices(job);
 	if (!err)
 		err = frame_upload(tr, geometries, p->geometries, p->n_instances);
+	if (!err)
+		err = opacity_place(job);
 	if (!err)
 		err = upload_trees(job);
 	return err;
