@@ -78,6 +78,15 @@ $(BUILD)/show/devices/intel/ready: | $(BUILD)/deps.devices
 	@$(PYTHON) -m venv $(@D) && $(@D)/bin/pip install -q intel-opencl-rt==2026.2.0 intel-cmplr-lib-rt==2026.2.0
 	@touch $@
 
+# Clang compiles kernels for GPUs; ptxas, a package of PyPI, assembles them for NVIDIA's.
+SHOWS += show-gpu-code
+$(BUILD)/show/gpu-code/venv/ready: | $(BUILD)/deps.gpu-code
+	@$(PYTHON) -m venv $(@D) && $(@D)/bin/pip install -q nvidia-cuda-nvcc-cu12==12.9.86
+	@touch $@
+
+show-gpu-code: all $(BUILD)/show/gpu-code/venv/ready
+	@$(PYTHON) -B tests/show/gpu_code.py $(BUILD)
+
 SHOWS += show-denoise
 $(BUILD)/show/denoise/venv/ready: | $(BUILD)/deps.denoise
 	@$(PYTHON) -m venv $(@D) && $(@D)/bin/pip install -q flip-evaluator==1.7 pyoidn==2.5.1.0
