@@ -110,13 +110,18 @@ $(BUILD)/recorder/%.o: %.c $(BUILD)/recorder/gen/stamp $(BUILD)/flags
 	$(Q)$(CC) $(CPPFLAGS) $(RECORDER_CFLAGS) -c -o $@ $<
 
 # Generated headers are built before files that include them; the .d files have the other dependencies.
-GENERATED_H := $(BUILD)/gen/gl_tokens.h $(BUILD)/gen/layout.h $(BUILD)/gen/version_number.h
+GENERATED_H := $(BUILD)/gen/gl_tokens.h $(BUILD)/gen/layout.h $(BUILD)/gen/packs.h $(BUILD)/gen/version_number.h
 $(COMMAND_OBJ): | $(GENERATED_H)
 $(GENERATED_H): | $(HAVE)
 
 $(BUILD)/gen/gl_tokens.h: replay/gen.py capture/gen/registry.py
 	@mkdir -p $(@D)
 	$(Q)$(PYTHON) -B replay/gen.py $@ tokens
+
+# What packs of the kernels refuse, from a list of all members of materials, units and lights.
+$(BUILD)/gen/packs.h: kernels/packs.py kernels/packs.txt base/structs.py scene/scene.h
+	@mkdir -p $(@D)
+	$(Q)$(PYTHON) -B kernels/packs.py kernels/packs.txt scene/scene.h $@
 
 $(BUILD)/gen/version_number.h: VERSION
 	@mkdir -p $(@D)

@@ -10,12 +10,6 @@
 
 /* --- Looks around ------------------------------------------------------------------------------------------------ */
 
-/* Test whether packs can compute the share of a material's colour that is not fog. */
-static inline int knows(__global const struct scene_material *m)
-{
-	return !m->fog || m->fog_mode == GL_LINEAR;
-}
-
 /* Find the fragments of a work item that receive light; the others are done here. */
 static inline void find_left(const struct dome_find_arguments *a, uint first, struct pack_left *left)
 {
@@ -32,7 +26,7 @@ static inline void find_left(const struct dome_find_arguments *a, uint first, st
 			continue;
 		}
 		left->all |= (ulong)1 << i;
-		if (knows(m) && pack_knows_geometry(g))
+		if (!pack_refuses_fog(m) && pack_knows_geometry(g))
 			left->packed |= (ulong)1 << i;
 	}
 }

@@ -15,22 +15,19 @@ static inline uint pack_find_unit(__global const struct scene_material *m, __glo
 	return i;
 }
 
-/* Test whether packs can handle unit i: its sources exist, and products of colours are only used for colours. */
-static inline int pack_knows_combine(__global const struct scene_material *m, __global const struct scene_unit *units,
-                                     uint i)
+/* Test whether the units that unit i takes colours from exist. */
+static inline int pack_has_sources(__global const struct scene_material *m, __global const struct scene_unit *units,
+                                   uint i)
 {
 	__global const struct scene_unit *unit = &units[i];
-	int known = unit->combine_alpha != GL_DOT3_RGB && unit->combine_alpha != GL_DOT3_RGBA &&
-	            unit->combine_alpha != GL_DOT3_RGB_EXT && unit->combine_alpha != GL_DOT3_RGBA_EXT;
+	int has = 1;
 
-	if (unit->env_mode != GL_COMBINE)
-		return unit->env_mode != GL_COMBINE4_NV;
-	for (uint k = 0; k < 3 && known; k++)
-		known = (unit->source_rgb[k] - GL_TEXTURE0 >= SCENE_MAX_UNITS ||
-		         pack_find_unit(m, units, unit->source_rgb[k] - GL_TEXTURE0) < m->unit_count) &&
-		        (unit->source_alpha[k] - GL_TEXTURE0 >= SCENE_MAX_UNITS ||
-		         pack_find_unit(m, units, unit->source_alpha[k] - GL_TEXTURE0) < m->unit_count);
-	return known;
+	for (uint k = 0; k < 3 && has && unit->env_mode == GL_COMBINE; k++)
+		has = (unit->source_rgb[k] - GL_TEXTURE0 >= SCENE_MAX_UNITS ||
+		       pack_find_unit(m, units, unit->source_rgb[k] - GL_TEXTURE0) < m->unit_count) &&
+		      (unit->source_alpha[k] - GL_TEXTURE0 >= SCENE_MAX_UNITS ||
+		       pack_find_unit(m, units, unit->source_alpha[k] - GL_TEXTURE0) < m->unit_count);
+	return has;
 }
 
 #include "kernels/sixteen_lanes.h"

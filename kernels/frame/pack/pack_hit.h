@@ -22,22 +22,19 @@ struct pack_points {
 /* Test whether packs support everything that a material needs for fragments that light leaves. */
 static inline int pack_knows_leaving(const struct shade_arguments *s, __global const struct scene_material *m)
 {
-	return s->transport == TRANSPORT_GL && pack_is_plain(s, m) && pack_knows_rays(m);
+	return s->transport == TRANSPORT_GL && pack_is_plain(s, m) && !pack_refuses_rays(m);
 }
 
 /* The same for hits. A near mirror seen in another mirror reflects nothing. */
 static inline int pack_knows_paths(const struct shade_arguments *s, __global const struct scene_material *m)
 {
-	return pack_knows_leaving(s, m) && !m->alpha_test && (!m->blend || m->surface.hidden & SCENE_SOLID) &&
-	       !transparency_is_unseen(m) &&
-	       (m->surface.hidden & SCENE_NEAR_MIRROR || !(m->surface.roughness > 0.0f));
+	return pack_knows_leaving(s, m) && !pack_refuses_hits(m);
 }
 
 /* The same for light transport: matte surfaces that may emit only their own colour. */
 static inline int pack_knows_bounces(const struct shade_arguments *s, __global const struct scene_material *m)
 {
-	return pack_is_plain(s, m) && pack_knows_rays(m) && !m->alpha_test && (!m->blend || m->surface.hidden & SCENE_SOLID) &&
-	       !transparency_is_unseen(m) && !(m->surface.reflect > 0.0f) && !(m->surface.transmit > 0.0f);
+	return pack_is_plain(s, m) && !pack_refuses_rays(m) && !pack_refuses_bounces(m);
 }
 
 /* --- Where they are ---------------------------------------------------------------------------------------------- */

@@ -108,12 +108,6 @@ WIDE_VECTORS static inline struct vec3_16 pack_curve_origin(const struct pack_cu
 	return any_pack(~bent) ? v3_choose(bent, curved, pack_ray_origin(of_point, s, straight, back)) : curved;
 }
 
-/* Test whether pack_light_rays supports everything that a material needs. */
-static inline int pack_knows_rays(__global const struct scene_material *m)
-{
-	return !(m->surface.hidden & (SCENE_CARD | SCENE_CREASED));
-}
-
 /* point_lights: start of a material's lights. */
 static inline __global const struct scene_light *pack_lights_of(const struct tables *t,
                                                                 __global const struct scene_material *m)
@@ -121,8 +115,8 @@ static inline __global const struct scene_light *pack_lights_of(const struct tab
 	return t->lights + (m->surface.relit ? m->surface.light_first : m->light_first);
 }
 
-/* stage_light_ray for a light without a size and a material that satisfies pack_knows_rays; writes rays[place[lane]]
- * for the lanes that need a ray. */
+/* stage_light_ray for a light and a material that pack_refuses_rays* do not refuse; writes rays[place[lane]] for the
+ * lanes that need a ray. */
 static inline void pack_light_rays(const struct pack *p, const struct pack_surface *s, const struct pack_curve *curve,
                                    struct vec3_16 back, __global const struct scene_light *light, uint lanes,
                                    const uint *place, __global struct ray *rays)

@@ -17,13 +17,12 @@
 /* Test whether pack_shade supports everything that a material needs. */
 static inline int pack_is_plain(const struct shade_arguments *a, __global const struct scene_material *m)
 {
-	int plain = !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped &&
-	            !(m->surface.hidden & SCENE_CREASED) && (!m->fog || m->fog_mode == GL_LINEAR) &&
+	int plain = !pack_refuses_shade(m) &&
 	            (a->transport == TRANSPORT_GL || a->transport == TRANSPORT_DIFFUSE || stage_is_path(a->transport));
 
 	for (uint i = 0; i < m->unit_count && plain; i++)
 		plain = pack_knows_texture(&a->tables, &a->tables.units[m->unit_first + i]) &&
-		        pack_knows_combine(m, a->tables.units + m->unit_first, i);
+		        pack_has_sources(m, a->tables.units + m->unit_first, i);
 	return plain;
 }
 

@@ -9,6 +9,7 @@
 
 #include "kernels/frame/pack/pack_vector.h"
 #include "kernels/gl/fragment.h"
+#include "packs.h"
 
 /* --- Numbers ----------------------------------------------------------------------------------------------------- */
 
@@ -69,17 +70,12 @@ WIDE_VECTORS static inline packf pack_plane_at(const struct pack_plane *p, packf
 static inline int pack_knows_texture(const struct tables *t, __global const struct scene_unit *unit)
 {
 	__global const struct texture_image *image = &t->textures[unit->texture];
-	const int nearest = unit->mag_filter == GL_NEAREST && unit->min_filter == GL_NEAREST;
-	const int linear = unit->mag_filter == GL_LINEAR &&
-	                   (unit->min_filter == GL_LINEAR || unit->min_filter == GL_LINEAR_MIPMAP_NEAREST ||
-	                    unit->min_filter == GL_LINEAR_MIPMAP_LINEAR);
 
 	if (image->target == GL_TEXTURE_3D ? !texture_wrap_is_plain(unit->wrap_r) || texture_needs_slope(t, unit) :
 	                                     image->target != GL_TEXTURE_2D)
 		return 0;
 	return image->base_format != GL_DEPTH_COMPONENT && !image->border && image->words == 1 &&
-	       texture_wrap_is_plain(unit->wrap_s) && texture_wrap_is_plain(unit->wrap_t) && !unit->swizzle &&
-	       (nearest || linear || (unit->max_anisotropy > 1.0f && unit->min_filter != GL_NEAREST));
+	       !pack_refuses_shade_unit(unit);
 }
 
 /* The level of a unit's texture that each lane samples, and its size and data. */

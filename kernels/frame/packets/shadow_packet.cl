@@ -50,7 +50,7 @@ static inline void send_sixteen(const struct shadow_ray_arguments *a, uint slot,
 		const uint bit = lanes & -lanes, lane = popcount(bit - 1), same = pack_same_kind(&a->tables, &list, lanes, &material);
 		__global const struct scene_material *m = &a->tables.materials[material];
 
-		if (same & bit && pack_knows_rays(m) && !(pack_lights_of(&a->tables, m)[slot].radius > 0.0f)) {
+		if (same & bit && !pack_refuses_rays(m) && !pack_refuses_rays_light(&pack_lights_of(&a->tables, m)[slot])) {
 			send_lanes(a, &list, m, same, slot, a->rays + slot * a->n);
 			lanes &= ~same;
 		} else {

@@ -153,13 +153,11 @@ static inline int knows(const struct tables *t, __global const struct geometry *
 {
 	__global const struct scene_material *m = &t->materials[g->material];
 
-	if (m->unclamped & 2u || (m->lighting && g->attributes & SCENE_HAS_FACE))
-		return 0;
-	for (uint i = 0; i < m->unit_count; i++)
-		for (int c = 0; c < 4; c++)
-			if (t->units[m->unit_first + i].gen_mode[c])
-				return 0;
-	return 1;
+	int known = !pack_refuses_vertices(m) && !(m->lighting && g->attributes & SCENE_HAS_FACE);
+
+	for (uint i = 0; i < m->unit_count && known; i++)
+		known = !pack_refuses_vertices_unit(&t->units[m->unit_first + i]);
+	return known;
 }
 
 /*

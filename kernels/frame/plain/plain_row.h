@@ -22,7 +22,7 @@ struct plain_colors {
 /* Test whether packs support everything that a material needs; other fragments are shaded one by one. */
 static inline int plain_knows(const struct shade_arguments *s, __global const struct scene_material *m)
 {
-	return pack_is_plain(s, m) && pack_knows_rays(m);
+	return pack_is_plain(s, m) && !pack_refuses_rays(m);
 }
 
 /*

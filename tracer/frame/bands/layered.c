@@ -7,6 +7,7 @@
 #include "kernels/camera/camera.h"
 #include "kernels/frame/plain/plain.h"
 #include "kernels/gl/pixel.h"
+#include "packs.h"
 #include "tracer/frame/bands/plain.h"
 #include "tracer/frame/bands/segment.h"
 #include "tracer/frame/light/dome.h"
@@ -26,14 +27,6 @@ struct looks {
 	uint32_t n_clears, cleared; /* n_clears: of this round; clears of segments before `cleared` are done */
 	uint32_t skipped;           /* clears of the first segment that are part of the initial pixels */
 };
-
-/* 1 if the kernels support all per-fragment operations of a material. */
-static int is_known(const struct job *job, const struct scene_material *m)
-{
-	return !(m->stencil_test && pixel_stencil_bits(job->bits)) && !m->logic_op && !m->floats && !m->srgb &&
-	       !m->samples_off && !m->alpha_to_coverage && !m->alpha_to_one &&
-	       !(m->surface.transmit > 0 && m->blend && !plain_has_mirrors(job));
-}
 
 static const struct accel_space *space_of(const struct job *job, const struct segment *segment)
 {
@@ -124,7 +117,8 @@ int layered_suits(const struct job *job)
 	if ((job->scene->start && job->scene->start->colors) || !(job->image ? suits_image(job) : suits_picture(job)))
 		return 0;
 	for (uint32_t i = 0; i < p->n_instances; i++)
-		if (!is_known(job, &job->scene->materials[p->instances[i].material]))
+		if (pack_refuses_layers(&job->scene->materials[p->instances[i].material], pixel_stencil_bits(job->bits) != 0,
+		                        plain_has_mirrors(job)))
 			return 0;
 	return 1;
 }

@@ -4,6 +4,7 @@
 
 #include "kernels/camera/camera.h"
 #include "kernels/frame/plain/plain.h"
+#include "packs.h"
 #include "tracer/frame/bands/segment.h"
 #include "tracer/frame/light/dome.h"
 #include "tracer/frame/light/secondary.h"
@@ -19,7 +20,7 @@ static int is_lit_simply(const struct job *job)
 	if (job->options->mode != TRACER_WHITTED || secondary_transport(job->options) != TRANSPORT_GL)
 		return 0;
 	for (uint32_t i = 0; i < scene->n_lights; i++)
-		if (scene->lights[i].radius > 0)
+		if (pack_refuses_rays_light(&scene->lights[i]))
 			return 0;
 	return 1;
 }
@@ -62,12 +63,9 @@ int plain_suits(const struct job *job)
 	    !is_cleared_once(job) || plain_has_mirrors(job) || !is_known(job) || p->n_segments != 1 ||
 	    segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN)
 		return 0;
-	for (uint32_t i = 0; i < segment->instance_count; i++) {
-		const struct scene_material *m = &job->scene->materials[p->instances[segment->instance_first + i].material];
-
-		if ((m->color_mask & 15) != 15 || m->alpha_to_one)
+	for (uint32_t i = 0; i < segment->instance_count; i++)
+		if (pack_refuses_plain(&job->scene->materials[p->instances[segment->instance_first + i].material]))
 			return 0;
-	}
 	return 1;
 }
 
