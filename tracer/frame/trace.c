@@ -62,6 +62,7 @@ void tracer_destroy(struct tracer **tracer)
 	pool_free(&tr->indices, tr->dev);
 	pool_free(&tr->texels, tr->dev);
 	pool_free(&tr->opacity, tr->dev);
+	free(tr->opacity_met.names);
 	FRAME_WHOLE_BUFFERS(RELEASE)
 	release_band(tr);
 	traverse_release(tr->dev, &tr->trees);

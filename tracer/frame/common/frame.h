@@ -55,6 +55,11 @@ struct tracer {
 	struct accel *accel;
 	size_t tree_room[N_BLAS_PARTS]; /* room of the buffers of mesh trees, in items */
 	struct pool attributes, indices, texels, opacity;
+	struct opacity_met { /* surfaces of the last frame that asked for words of opacity: sorted hashes */
+		uint64_t *names;
+		size_t n;
+		int is_used; /* 1: there was such a frame */
+	} opacity_met;
 	struct traverse_trees trees;
 	struct frame_buffers buffers;
 	uint32_t *counts, *first; /* [pixels], host copies */

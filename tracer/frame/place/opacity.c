@@ -108,6 +108,38 @@ static void name_words(const struct source *from, XXH3_state_t *state, uint64_t 
 
 /* --- A frame ----------------------------------------------------------------------------------------------------- */
 
+static int compare_names(const void *a, const void *b)
+{
+	const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+
+	return (x > y) - (x < y);
+}
+
+/*
+ * Keep the items whose words may be used again, in front. Surfaces that change from frame to frame are sampled, as
+ * their words would cost more: words are made for the surfaces of a tracer's first frame, and of two in a row.
+ * @return their number
+ */
+static size_t choose_items(struct opacity_met *met, struct pool_item *items, size_t n)
+{
+	uint64_t *names = malloc((n + 1) * sizeof(*names));
+	size_t chosen = 0;
+
+	for (size_t i = 0; i < n; i++) {
+		const uint64_t name = items[i].hash[0];
+
+		if (names)
+			names[i] = name;
+		if (!met->is_used || bsearch(&name, met->names, met->n, sizeof(name), compare_names))
+			items[chosen++] = items[i];
+	}
+	free(met->names);
+	*met = (struct opacity_met){ names, names ? n : 0, 1 };
+	if (names)
+		qsort(names, n, sizeof(*names), compare_names);
+	return chosen;
+}
+
 /* Give words to instances whose surfaces have to be sampled, as far as something is known of them. */
 static int place_words(struct job *job, struct source *sources, uint32_t n, struct opacity_blocks *blocks)
 {
@@ -123,9 +155,11 @@ static int place_words(struct job *job, struct source *sources, uint32_t n, stru
 		name_words(&sources[i], state, items[i].hash);
 	}
 	if (!err)
+		n = (uint32_t)choose_items(&job->tr->opacity_met, items, n);
+	if (!err)
 		err = pool_place(&job->tr->opacity, job->tr->dev, items, n, fill_words);
 	for (uint32_t i = 0; i < n && !err; i++)
-		sources[i].instance->opacity = OPACITY_WORDS + items[i].place;
+		((const struct source *)items[i].object)->instance->opacity = OPACITY_WORDS + items[i].place;
 	XXH3_freeState(state);
 	free(items);
 	return err;
