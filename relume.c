@@ -64,9 +64,9 @@ static const struct verb {
 	{ GROUP_RENDER, "devices", devices_main, "list the OpenCL devices, and check what they draw" },
 
 	{ GROUP_COMPARE, "raster", raster_main, "rasterize frames of a recording with a real OpenGL" },
-	{ GROUP_COMPARE, "bisect", bisect_main, "find the first call at which two recordings of a program diverge" },
+	{ GROUP_COMPARE, "bisect", bisect_main, "find the first call where two recordings of a program diverge" },
 	{ GROUP_COMPARE, "reduce", reduce_with_pictures,
-	  "find the smallest recording with which a frame or a command still fails" },
+	  "find the smallest recording that still makes a frame or a command fail" },
 
 	{ GROUP_FARM, "farm", farm_main, "render on many machines, by Slurm array jobs or scripts" },
 

@@ -115,7 +115,7 @@ struct scene_stencil {
 	uint32_t fail, zfail, zpass; /* GL tokens */
 };
 
-/* Contents of a drawable with floating-point colours, as bits: floats, or halves, to which drawing truncates. Both set:
+/* Contents of a drawable with floating-point colours, as bits: floats, or halves that drawing truncates to. Both set:
  * floats. */
 #define SCENE_FLOATS 1u
 #define SCENE_HALVES 2u

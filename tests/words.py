@@ -30,7 +30,8 @@ HABITS = [(name, re.compile(text.replace(" ", r"\s+"), re.I), reason, better) fo
     ("of-which", r"\bof which\b", "a relative clause too many", "whose, or a sentence of its own"),
     ("in-which", r"\bin which\b", "a relative clause too many", "where, when, or 'that'"),
     ("prep-which", rf"\b({PREPOSITIONS}) which\b", "a relative clause too many", "'that it starts at'"),
-    ("stands", r"\b(stands?|stood)\b(?! (alone|for|in for)\b)", "nothing stands in a program", "is, appears, precedes"),
+    ("stands", r"\b(stands?|stood)\b(?! (alone|for|in for|still)\b|-in)", "nothing stands in a program",
+     "is, appears, precedes"),
     ("told", r"\b(un)?told\b", "programs report", "reported, printed, passed"),
     ("do-without", r"\b(do|does|did|done|doing) without\b", "vague", "omit, does not need"),
     ("goes-by", r"\b(go|goes|going|went|gone) by\b", "vague", "depends on, is ordered by"),
@@ -66,7 +67,8 @@ def passages(name, text):
         if raw.startswith("```") or raw[0] in "\"'" and raw.count(" ") < 2:
             continue
         clean = MARKS.sub(blank, raw)
-        start = len(clean) - len(clean.lstrip())
+        # A literal that begins with a space continues a sentence.
+        start = 1 if raw[:2] in ('" ', "' ") else len(clean) - len(clean.lstrip())
         yield match.start() + start, clean[start:]
 
 

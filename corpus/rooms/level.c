@@ -128,7 +128,7 @@ static const char *read_line(struct level *level, char *line)
 		return NULL;
 	is_brush = strcmp(word, "add") == 0 || strcmp(word, "subtract") == 0;
 	if (is_brush && !(kind = strtok(NULL, " \t\r\n")))
-		return "what kind of brush?";
+		return "a brush needs a kind";
 	for (char *number; n < 12 && (number = strtok(NULL, " \t\r\n")) && number[0] != '#'; n++)
 		v[n] = strtod(number, NULL);
 	if (is_brush)

@@ -216,7 +216,7 @@ const caption = name => make("figcaption", { textContent: title_of(name) });
 /* What is compared with the approved frame: the beauty, also where it was compared with the reference. */
 const now_of = have => have.beauty ? "beauty" : "compared";
 
-const layers_of = have => Object.keys(have || {}).filter(name => name !== "thumbnail" && !/^(blame|role|told) /.test(name));
+const layers_of = have => Object.keys(have || {}).filter(name => name !== "thumbnail" && !/^(blame|role|finding) /.test(name));
 const main_of = (f, have) => !have.approved ? SIDE_BY_SIDE
 	: ["approved", now_of(have), "change", ...(failed_of(f, of_reference).length ? ["reference", "compared", "difference", "flip"] : [])];
 
@@ -225,12 +225,12 @@ function pair() {
 	const have = layers_of(state.pictures), usual = state.pictures.approved ? ["approved", now_of(state.pictures)] : ["reference", "compared"];
 	return ["a", "b"].map((key, i) => have.includes(state[key]) ? state[key] : have.includes(usual[i]) ? usual[i] : have[0]);
 }
-const roles_of = have => Object.keys(have || {}).filter(name => name.startsWith("told ")).map(name => name.slice(5));
+const roles_of = have => Object.keys(have || {}).filter(name => name.startsWith("finding ")).map(name => name.slice("finding ".length));
 
 /* The page of roles and lights: what rules made of the frame, why, and how sure that is. */
 function show_roles() {
 	$("views").append(table_of("roles and lights", ["kind", "role", "confidence", "why", "where: its draws, or what faces the light"], roles_of(state.pictures).map(i => {
-		const [kind, role, confidence, why] = state.pictures["told " + i];
+		const [kind, role, confidence, why] = state.pictures["finding " + i];
 		return make("tr", { className: "role" }, make("td", { textContent: kind }), make("td", { textContent: role }),
 			make("td", { className: "number", textContent: confidence }), make("td", { textContent: why }),
 			make("td", {}, state.pictures["role " + i] ? picture("role " + i) : ""));
@@ -427,7 +427,7 @@ function select(f) {
 	state.pictures = read(f);
 	planes.clear();
 	location.hash = f.frame;
-	$("told").textContent = `${label(f)}: ${f.outcome}`;
+	$("announced").textContent = `${label(f)}: ${f.outcome}`;
 	mark_selected();
 	show_frame();
 }

@@ -170,7 +170,7 @@ static int write_roles(const struct picture_frame *frame, FILE *out, size_t *use
 		err = roles_paint(frame, &role, &rgb);
 		if (!err && rgb)
 			err = write_picture(name, rgb, frame->image.width, frame->image.height, out, used);
-		fprintf(out, "%s\n\"told %u\": [\"%s\"", *used ? "," : "", i, role.is_light ? "light" : "surface");
+		fprintf(out, "%s\n\"finding %u\": [\"%s\"", *used ? "," : "", i, role.is_light ? "light" : "surface");
 		for (int k = 0; k < 3; k++) {
 			fputs(", \"", out);
 			write_text(k == 0 ? role.role : k == 1 ? role.confidence : role.why, out);

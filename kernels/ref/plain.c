@@ -203,7 +203,7 @@ static void end_pixel(const struct plain_arguments *a, uint32_t x, uint32_t y, c
 	*unknown = (x % PLAIN_WIDTH ? *unknown : 0) | (pixel->unknown & PIXEL_UNKNOWN_COLOR) << x % PLAIN_WIDTH;
 }
 
-_Static_assert(sizeof(struct frame_pixel) == PLAIN_KEPT * sizeof(float), "what is kept of a pixel");
+_Static_assert(sizeof(struct frame_pixel) == PLAIN_KEPT * sizeof(float), "PLAIN_KEPT floats hold a pixel");
 
 /*
  * Apply the depth clears before a look, starting with number `next`. @return the number of the first clear that remains

@@ -28,7 +28,7 @@ struct adding {
 	const struct scene *scene;
 	struct scene *out;
 	size_t room_instances, room_materials, room_units, room_lights, room_currents, room_meshes, room_textures;
-	struct blockers *blockers; /* of the scene */
+	struct blockers *blockers; /* in the scene */
 	uint32_t main_view;        /* the view that shows the viewer's world */
 	float (*places)[3];        /* places in view that rays are sent to */
 	size_t room_places;

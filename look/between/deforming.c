@@ -94,7 +94,7 @@ static double stretch(const float *a, const float *b, size_t n)
 struct kind {
 	struct bridge *b;
 	struct group *g;
-	size_t n_edges;       /* of each draw */
+	size_t n_edges;       /* per draw */
 	double alone;         /* cost of a draw without a partner */
 	struct place *places; /* [n + n_rivals] */
 	float *edges;         /* [n + n_rivals][n_edges] */

@@ -196,7 +196,7 @@ static void write_summary(const struct findings_summary *s, const char *trace, F
 	fprintf(out, "# Rules for %s, written by relume look after it studied %zu frames", trace, s->frames);
 	if (s->frames)
 		fprintf(out, " (%" PRIu64 " to %" PRIu64 ")", s->first, s->last);
-	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: what stands here counts.\n");
+	fprintf(out, ".\n# relume render --look FILE reads them. Change what you like: this file decides.\n");
 	if (!s->known)
 		fprintf(out, "# camera: unknown, as no mesh was drawn twice\n");
 	else

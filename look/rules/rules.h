@@ -1,7 +1,7 @@
 /*
  * Rules about surfaces and lights, written after recording: relume render --look FILE. All keys are optional. An
- * unknown key is an error, reported with its line. Several files apply in order, and so do the rules of a file: later
- * ones override earlier ones. 'relume look' studies a recording and writes such a file.
+ * unknown key is an error, reported with its line. Several files apply in order, as do the rules of a file: later ones
+ * override earlier ones. 'relume look' studies a recording and writes such a file.
  *
  * OpenGL's own picture (channels gl.*) never changes. Channel relight holds the effect of rules on lights and emission.
  * If rules give a light a place in the world, a frame whose place in the world is unknown stays as OpenGL drew it.
@@ -90,7 +90,7 @@
  *                                 # half its angle
  *         shadows: yes            # no: nothing blocks it
  *     sky:                        # light from all around, for solid surfaces that no light above lights
- *       reach: 20                 # distance up to which things dim it, in units of eye space; near ones dim it more
+ *       reach: 20                 # things closer than this dim it, in units of eye space; near ones dim it more
  *       up: [0, 1, 0]             # the direction that `light` comes from; `ground` comes from the opposite one.
  *                                 # Without this key, `light` comes from everywhere
  *       space: world              # the space of `up`; default eye

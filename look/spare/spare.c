@@ -206,8 +206,8 @@ struct fare {
 
 /*
  * Send every `step`-th of a lamp's rays.
- * @param at_last  [n_instances] or NULL: receives, for each instance, the area for which it is the last blocker on
- * the way
+ * @param at_last  [n_instances] or NULL: receives each instance's share of the area, namely that of rays it is the
+ * last to block
  */
 static struct fare follow(const struct sparing *a, const struct sides_lamp *lamp, const uint32_t *bits, uint32_t step,
                           float *at_last)

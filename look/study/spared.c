@@ -149,8 +149,8 @@ static void find_rule(const struct rule *r, uint32_t lit, const struct spared_en
 	struct finding *rule = findings_add(out, FINDINGS_SURFACES, r->decided ? "spared" : "blocker of light");
 
 	finding_explain(rule, r->share * (1 - 0.5 / (1 + r->frames)), "in %.0f %% of %u %s it %s", 100 * r->share, r->frames,
-	                of, r->decided ? "would shut out light of what OpenGL lights, or stands beyond it" :
-	                                 "stands in the lit world and shuts out no light");
+	                of, r->decided ? "would shut out light of what OpenGL lights, or is beyond it" :
+	                                 "is in the lit world and shuts out no light");
 	if (e)
 		FINDING_MATCH(rule, FINDING_HASHED(e->is_texture ? "texture" : "mesh", e->hash));
 	FINDING_MATCH(rule, FINDING_IS("lit", lit));

@@ -101,10 +101,10 @@ with slurm.Cluster(SCRATCH / "slurm", gres="gpu:1") as cluster:
     done = must(farm("submit", *words(pattern, 5, "--gres", "gpu:1", "--sbatch=--comment=night run")))
     found = re.search(r"^render (\d+), tasks 1-5\nreport (\d+)$", done.stdout, re.M)
     check(found, f"submit prints the numbers of both jobs: {done.stdout}")
-    told = cluster.run("scontrol", "show", "job", found[1]).stdout
+    batch = cluster.run("scontrol", "show", "job", found[1]).stdout
     check(
-        re.search("gres[:/]gpu:1", told) and "Comment=night run" in told,
-        f"sbatch received its options: {told[:3000]}")
+        re.search("gres[:/]gpu:1", batch) and "Comment=night run" in batch,
+        f"sbatch received its options: {batch[:3000]}")
     check(f"afterany:{found[1]}" in cluster.run("scontrol", "show", "job", found[2]).stdout,
           "the report waits for the frames")
     done = farm("status", job)

@@ -57,9 +57,9 @@ check(
     second.returncode == 2 and second.stderr
     == f"relume: {job}: process {first.pid} still renders there: wait for it or end it, or submit to another -o\n",
     f"a second run is refused: {second.returncode}, {second.stderr}")
-told = run(RELUME, "farm", "status", job, cwd=SCRATCH)
-check(told.returncode == 1 and f"\nprocess {first.pid} is at work" in told.stdout,
-      f"status of a run without Slurm: {told.stdout}")
+status = run(RELUME, "farm", "status", job, cwd=SCRATCH)
+check(status.returncode == 1 and f"\nprocess {first.pid} is at work" in status.stdout,
+      f"status of a run without Slurm: {status.stdout}")
 script = SCRATCH / "parallel.sh"
 script.write_text(must(run(RELUME, "farm", "script", "--for", "parallel", *words(pattern, 5), cwd=SCRATCH)).stdout)
 third = run("sh", script)
@@ -97,20 +97,20 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
         f"a second job is refused: {second.returncode}, {second.stderr}")
     check(number in second.stderr, f"by its number: {second.stderr}")
     check(SLOW[-1].encode() in (SCRATCH / job / "arguments").read_bytes(), "the first job is unchanged")
-    told = farm("status", job)
+    status = farm("status", job)
     until(lambda: len(list(folder.glob("*.exr"))) >= 3, "three frames")
-    told = farm("status", job)
+    status = farm("status", job)
     check(
         re.search(
             r"^tasks [12] running, [0-4] waiting; report waiting or running; [\d.]+ frames a minute, about \d+ "
             r"(s|min) left$",
-            told.stdout, re.M), f"rate and time left: {told.stdout}")
-    rate, took = re.search(r"; ([\d.]+) frames a minute", told.stdout), time.time() - submitted
+            status.stdout, re.M), f"rate and time left: {status.stdout}")
+    rate, took = re.search(r"; ([\d.]+) frames a minute", status.stdout), time.time() - submitted
     check(rate and float(rate[1]) >= 0.9 * 60 * 3 / took,
-          f"at least three in {took:.1f} s since the submission: {told.stdout}")
-    wanting = re.search(r"^missing: frames (.*)$", told.stdout, re.M)
+          f"at least three in {took:.1f} s since the submission: {status.stdout}")
+    wanting = re.search(r"^missing: frames (.*)$", status.stdout, re.M)
     check(wanting and all(re.fullmatch(r"\d+(-\d+)?", part) for part in wanting[1].split(",")),
-          f"the missing frames: {told.stdout}")
+          f"the missing frames: {status.stdout}")
     done = must(farm("submit", *words(pattern, 4, "--replace"), timeout=150))
     watched = farm("status", "--watch=1", job, timeout=120)
     check(
@@ -153,15 +153,16 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
     until(lambda: kill_task(3, False) or 3 in killed, "task 3 runs")
     until(lambda: kill_task(4, True) or 4 in killed, "task 4 runs")
     cluster.wait_empty(200)
-    told = farm("status", job)
-    check(told.returncode == 1, f"status: exit code {told.returncode}")
+    status = farm("status", job)
+    check(status.returncode == 1, f"status: exit code {status.returncode}")
     for what in (r"^task 2, frames 4-7: exit code 5; log trouble/x\.farm/log/2\n    relume: .*x\.0006\.exr.*$",
                  r"^task 3, frames 8-11: ended by signal 9 \(Killed\); log trouble/x\.farm/log/3$",
                  r"^task 4, frames 12-15: killed with its script \(Slurm: \w+, signal 9\); log trouble/x\.farm/log/4$",
                  r"^'relume farm retry trouble/x\.farm' renders what is missing$",
                  r"; report exit code 5$"):
-        check(re.search(what, told.stdout, re.M), f"{what} in:\n{told.stdout}") or print(cluster.story(SCRATCH / job))
-    check(not re.search(r"^task [156]", told.stdout, re.M), f"successful tasks are not named:\n{told.stdout}")
+        if not check(re.search(what, status.stdout, re.M), f"{what} in:\n{status.stdout}"):
+            print(cluster.story(SCRATCH / job))
+    check(not re.search(r"^task [156]", status.stdout, re.M), f"successful tasks are not named:\n{status.stdout}")
     check((folder / "end").read_text() == f"5\n{job}\n", f"the command at the end: {(folder / 'end').read_text()}")
 
     # With accounting Slurm knows more: a task that ran out of memory.
@@ -172,14 +173,14 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
         '"${job}_5|CANCELLED by 0|0:0"\n'
     )
     (tool / "sacct").chmod(0o755)
-    told = cluster.run("env", f"PATH={tool}:{cluster.env['PATH']}", RELUME, "farm", "status", job, cwd=SCRATCH)
-    check("task 4, frames 12-15: killed with its script (Slurm: OUT_OF_MEMORY, signal 125); log" in told.stdout,
-          f"by accounting: {told.stdout}")
+    status = cluster.run("env", f"PATH={tool}:{cluster.env['PATH']}", RELUME, "farm", "status", job, cwd=SCRATCH)
+    check("task 4, frames 12-15: killed with its script (Slurm: OUT_OF_MEMORY, signal 125); log" in status.stdout,
+          f"by accounting: {status.stdout}")
     (folder / "x.0006.exr").rmdir()
     must(farm("retry", job))
     cluster.wait_empty(200)
-    told = farm("status", job)
-    check(told.returncode == 0 and "task " not in told.stdout, f"after retry: {told.stdout}")
+    status = farm("status", job)
+    check(status.returncode == 0 and "task " not in status.stdout, f"after retry: {status.stdout}")
 
     # Display pictures, another camera, missing channels gl.*: there is no score, and the reason is printed.
     for name, output, render, why in (("png", "x.####.png", ("--mode", "gl"),
@@ -190,9 +191,9 @@ with slurm.Cluster(SCRATCH / "slurm") as cluster:
         done = must(farm("submit", *words(f"{name}/{output}", 12, render=("--device", "reference", *render))))
         check(f"\nnothing is scored: {why}\n" in done.stdout and "report" not in done.stdout, f"{name}: {done.stdout}")
         cluster.wait_empty(100)
-        told = farm("status", job)
-        check(told.returncode == 0 and not (SCRATCH / job / "report").exists(),
-              f"{name}: {told.returncode}, {told.stdout}")
+        status = farm("status", job)
+        check(status.returncode == 0 and not (SCRATCH / job / "report").exists(),
+              f"{name}: {status.returncode}, {status.stdout}")
     folder, pattern, job = place("end")
     done = must(
         farm(

@@ -38,7 +38,7 @@ def most_apart(a, b, channel):
 
 for device in ("reference", "0"):
     before, _, _ = picture("before", 0, "spare: no\n", device)
-    after, said, told = picture("after", 0, "spare: no\nsurfaces:\n  - repair: { weld: 0.006 }\n", device)
+    after, said, listed = picture("after", 0, "spare: no\nsurfaces:\n  - repair: { weld: 0.006 }\n", device)
     check(
         lit_floor(before) > 20 and lit_floor(after) == 0,
         f"{device}: {lit_floor(before)} pixels of the floor were lit through the roof, {lit_floor(after)} are")
@@ -47,11 +47,11 @@ for device in ("reference", "0"):
     check(
         lit_floor(merged) == 0 and all(before[c] == merged[c] for c in KEPT) and " 0 places merged" not in said_so,
         f"{device}: unchanged with coplanar triangles merged")
-check("closed mesh" in told and "closed" in told and "leaks" not in said,
-      f"the room is reported as closed: {said}{[line for line in told.splitlines() if 'welded' in line]}")
-tight, said, told = picture("tight", 0, "spare: no\nsurfaces:\n  - repair: {}\n")
+check("closed mesh" in listed and "closed" in listed and "leaks" not in said,
+      f"the room is reported as closed: {said}{[line for line in listed.splitlines() if 'welded' in line]}")
+tight, said, listed = picture("tight", 0, "spare: no\nsurfaces:\n  - repair: {}\n")
 check(lit_floor(tight) == lit_floor(picture("before", 0, "spare: no\n")[0]), "a crack wider than the tolerance remains")
-check("still leaks light at" in said and "mesh that leaks" in told, f"the wider crack is reported: {said}")
+check("still leaks light at" in said and "mesh that leaks" in listed, f"the wider crack is reported: {said}")
 
 whole, _, _ = picture("whole", 2, GLASS.format(""))
 for device in ("reference", "0"):

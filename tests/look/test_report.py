@@ -13,7 +13,7 @@ trace = SCRATCH / "tricks.trace"
 record(trace, corpus("tricks"), "planar", "--frames", 3)
 
 
-def told(*look):
+def findings(*look):
     """The report page's data about a frame, and the roles that have pictures."""
     frames, report = SCRATCH / f"frames{len(look)}", SCRATCH / f"report{len(look)}"
     render(trace, frames, "-f", 2, *look)
@@ -23,15 +23,15 @@ def told(*look):
                   re.S)[1])
     return [page[key]
             for key in sorted(page)
-            if key.startswith("told ")], [key for key in page if key.startswith("role ")]
+            if key.startswith("finding ")], [key for key in page if key.startswith("role ")]
 
 
-says, pictures = told("--look", "auto")
+says, pictures = findings("--look", "auto")
 roles = {(kind, role): (float(confidence), why) for kind, role, confidence, why in says}
 check(("surface", "planar shadow") in roles and ("light", "light of a planar shadow") in roles,
       f"the shadow and its light are listed: {says}")
 check(all(0 < confidence <= 1 and why for confidence, why in roles.values()),
       f"each with confidence and reason: {says}")
 check(len(pictures) >= 2, f"the shadow and its light have pictures: {pictures}")
-check(told() == ([], []), "a frame rendered without rules has none")
+check(findings() == ([], []), "a frame rendered without rules has none")
 finish()

@@ -17,8 +17,8 @@ record(trace, BUILD / "tests/real/empty", "20", options=())
 done = relume("render", trace, "-o", SCRATCH / "many/e.####.exr", "-f", "0-12,14-21", *AS_SHOWN)
 check(done.returncode == 5 and len(list((SCRATCH / "many").glob("*.exr"))) == 2,
       f"many bad frames: exit code {done.returncode}")
-told = [line for line in done.stderr.splitlines() if "cannot be rendered" in line]
+reported = [line for line in done.stderr.splitlines() if "cannot be rendered" in line]
 check(
-    len(told) == 2 and told[1] == "relume: frames 1-12, 14-20: 0 x 0 pixels cannot be rendered",
-    f"many bad frames: {told}")
+    len(reported) == 2 and reported[1] == "relume: frames 1-12, 14-20: 0 x 0 pixels cannot be rendered",
+    f"many bad frames: {reported}")
 finish()

@@ -19,11 +19,12 @@ for device in ("reference", "cpu"):
 done = relume("render", trace, "-o", SCRATCH / "alone.####.exr", "-f", "0", *AS_SHOWN)
 check(done.returncode == 0, f"frame 0 alone: exit code {done.returncode}: {done.stderr}")
 _, score = diff(trace, frames)
-told = [[(p["name"], p["pixels"], p["failing"]) for p in f["programs"]] for f in score["frames"]]
-check([len(t) for t in told] == [1, 3] and all(p[1] == 64 for t in told for p in t), f"pixels of each program: {told}")
-check([p[2] for p in told[0]] == [0], f"frame 0's program is right: {told[0]}")
-check([p[2] for p in told[1]] == [0, 64, 64], f"the last two programs of frame 1 are wrong: {told[1]}")
+scored = [[(p["name"], p["pixels"], p["failing"]) for p in f["programs"]] for f in score["frames"]]
+check([len(t) for t in scored] == [1, 3] and all(p[1] == 64 for t in scored for p in t),
+      f"pixels of each program: {scored}")
+check([p[2] for p in scored[0]] == [0], f"frame 0's program is right: {scored[0]}")
+check([p[2] for p in scored[1]] == [0, 64, 64], f"the last two programs of frame 1 are wrong: {scored[1]}")
 said = relume("diff", trace, frames).stdout
-first, last = told[1][0][0], told[1][2][0]
+first, last = scored[1][0][0], scored[1][2][0]
 check(f"{first}: 100.000 % of 64 px" in said and f"{last}: 0.000 % of 64 px" in said, f"the table shows it: {said}")
 finish()

@@ -9,9 +9,9 @@ from helpers import BUILD, SCRATCH, check, finish, must, record, relume
 
 trace = SCRATCH / "errors.trace"
 lines = [line.split() for line in record(trace, BUILD / "tests/real/errors", options=()).stdout.splitlines()]
-told = collections.Counter(call for call, error in lines if error != "0")
+printed = collections.Counter(call for call, error in lines if error != "0")
 found = {row["call"]: row["count"] for row in json.loads(must(relume("info", "--json", trace)).stdout)["gl_errors"]}
-check(len(lines) > 350 and sum(told.values()) > 130, f"{len(lines)} calls, {sum(told.values())} of them wrong")
+check(len(lines) > 350 and sum(printed.values()) > 130, f"{len(lines)} calls, {sum(printed.values())} of them wrong")
 for call in sorted({call for call, _ in lines} | set(found)):
-    check(told[call] == found.get(call, 0), f"{call}: {found.get(call, 0)} refused, expected {told[call]}")
+    check(printed[call] == found.get(call, 0), f"{call}: {found.get(call, 0)} refused, expected {printed[call]}")
 finish()

@@ -141,11 +141,11 @@ for name, value in {
     check(found.get(name) == value, f"with a baseline: {name}: {found.get(name)} instead of {value}")
 check({"approved", "change", "changed", "reference", "compared", "beauty", "difference"} <= set(found.get("all", [])),
       f"all channels: {found.get('all')}")
-told = found.get("verdicts", ["", ""])
+verdicts = found.get("verdicts", ["", ""])
 check(
-    told[0].startswith("failed: Not as approved: pixels off from the approved frame 6.5") and "R reflect.R" in told[0]
-    or "hashes: R" in told[0], f"the failed comparison: {told}")
-check(told[1] == "passed: As the reference, fidelity 100 %.", f"the passed comparison: {told}")
+    verdicts[0].startswith("failed: Not as approved: pixels off from the approved frame 6.5")
+    and "R reflect.R" in verdicts[0] or "hashes: R" in verdicts[0], f"the failed comparison: {verdicts}")
+check(verdicts[1] == "passed: As the reference, fidelity 100 %.", f"the passed comparison: {verdicts}")
 page = (SCRATCH / "changed/index.html").read_text()
 
 

@@ -10,8 +10,8 @@ FRAMES = ("two views", "two views again", "a corner copied", "a corner copied ag
 trace, _ = check_same_pictures("parts", FRAMES)
 for frame in range(1, len(FRAMES)):
     done = must(relume("render", trace, "-f", frame, "-o", SCRATCH / "one.####.exr", *AS_SHOWN))
-    told = f"frame {frame} needs the pixels of frames before it" in done.stderr
-    check(told == (frame >= 8), f"{FRAMES[frame]}: reported as needing earlier frames: {told}: {done.stderr}")
+    reported = f"frame {frame} needs the pixels of frames before it" in done.stderr
+    check(reported == (frame >= 8), f"{FRAMES[frame]}: reported as needing earlier frames: {reported}: {done.stderr}")
     check_alone(trace, frame)
 
 # Frames that the world's rules name are replayed first: later frames can use their drawing and copies.

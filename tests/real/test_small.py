@@ -16,7 +16,7 @@ PROGRAMS = {
     "colors": tuple(f"seed {seed}" for seed in range(1, 13)),
     "condition": ("draws", "clears and pixels", "lists and arrays", "inverted"),
     "copies": ("parts", "without alpha", "depths", "many of a large one"),
-    "defines": ("without a version", "of version 120"),
+    "defines": ("without a version", "version 120"),
     "depthless": ("an object's picture", "over a quad", "one with depth"),
     "direct": ("matrices", "named textures", "units", "buffers and programs", "framebuffers"),
     "habits": ("lines' offset", "points' offset", "an offset to behind", "beside stipple",
@@ -65,9 +65,9 @@ if not sys.argv[1:]:
     record(trace, BUILD / "tests/real/small/lacking", options=())
     said = must(relume("info", trace)).stdout
     check("glBegin: a shader reads or writes gl_ClipDistance, which is not supported" in said,
-          f"the draw and the name are told: {said}")
+          f"the draw and the name are reported: {said}")
     for name in "glBindTexture", "glTexImage3D", "glTexParameteri":
-        check(f"{name}: texture targets of later GL" in said, f"what Relume lacks: {name}: {said}")
+        check(f"{name}: texture targets of later GL" in said, f"features that Relume lacks: {name}: {said}")
     check("GL errors" not in said, f"the program is not blamed: {said}")
     trace = SCRATCH / "outward.trace"
     files = render(trace, SCRATCH / "outward", "-f", "2-4")

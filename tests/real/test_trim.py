@@ -95,7 +95,7 @@ for name, first, begins in (("xss-queens", 70, 70), ("xss-noof", 1, 0)):
     trace = SCRATCH / f"shared-{name}.trace"
     if (TRACES / f"{name}.trace").exists():
         shutil.copy(TRACES / f"{name}.trace", trace)
-        (SCRATCH / f"{trace.stem}-cut.ref").write_bytes(b"of an older recording")
+        (SCRATCH / f"{trace.stem}-cut.ref").write_bytes(b"from an older recording")
         new = trimmed(trace, first, first + 1, begins)
         same_renders(trace, new, begins, first + 1, "--mode", "gl")
         facts = json.loads(relume("info", "--json", new).stdout)

@@ -137,16 +137,16 @@ class Told:
             return self.images[name]
         if name == TRIMMED:
             return self.render(self.trace, self.frame, name)
-        told = self.cut if name == "-" else self.folder / f"{name}.trace"
+        trace = self.cut if name == "-" else self.folder / f"{name}.trace"
         if name != "-":
-            done = run(self.build / "tests/same/relations", name, self.cut, told)
+            done = run(self.build / "tests/same/relations", name, self.cut, trace)
             if done.returncode == 77:
                 return Verdict(None, done.stdout.strip())
             if done.returncode:
-                return Verdict(False, f"it cannot be told: exit code {done.returncode}: {done.stderr.strip()}")
-        image = self.render(told, self.cut_frame, name)
+                return Verdict(False, f"the relation cannot be applied: exit code {done.returncode}: {done.stderr.strip()}")
+        image = self.render(trace, self.cut_frame, name)
         if name != "-":
-            told.unlink()
+            trace.unlink()
         if any(base == name for base, _, _ in self.relations.values()):
             self.images[name] = image
         return image

@@ -28,7 +28,7 @@ class Site:
     was: str = ""
     id: str = ""
 
-    def told(self):
+    def described(self):
         return f"{self.path}:{self.line}:{self.column}: {self.kind} `{self.was}` -> `{self.instead}`"
 
 

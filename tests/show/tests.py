@@ -242,7 +242,7 @@ class Campaign:
             return before
         passed = before["passed"] if before and before["of"] == of else {}
         verdict = {
-            "folder": site.folder, "path": site.path, "told": site.told(), "of": of, "by": None, "passed": passed
+            "folder": site.folder, "path": site.path, "told": site.described(), "of": of, "by": None, "passed": passed
         }
         seen = {t.name: self.map[f"{way} {t.name}"] for t in self.tests if f"{way} {t.name}" in self.map}
         able = [
@@ -290,10 +290,8 @@ def main(options):
             if verdict != todo.verdicts.get(site.id):
                 todo.verdicts[site.id] = verdict
                 todo.save()
-                print(
-                    f"{'noticed' if verdict['by'] else 'left':7}  {site.id}  {verdict['told']}  "
-                    f"{verdict['by'] or verdict['why']}",
-                    flush=True)
+                print(f"{'noticed' if verdict['by'] else 'left':7}", site.id, verdict["told"],
+                      verdict["by"] or verdict["why"], sep="  ", flush=True)
     reasons = dict(
         line.split(" ", 1)
         for line in (ROOT / "tests/show/left.txt").read_text().splitlines()
@@ -301,7 +299,7 @@ def main(options):
     shown = Shown(options.build, "tests")
     for name, verdict in tried.items():
         if not verdict["by"]:
-            print(f"left: {name} {verdict['told']} ({verdict['why']}): {reasons.get(name, 'no reason known')}")
+            print("left:", name, verdict["told"], f"({verdict['why']}): {reasons.get(name, 'no reason known')}")
     for folder in (*FOLDERS, "all"):
         of = [v for v in tried.values() if folder in ("all", v["folder"])]
         noticed = sum(v["by"] is not None for v in of)
@@ -310,10 +308,10 @@ def main(options):
                       f"{noticed} noticed, {len(of) - noticed} left: {100 * noticed / len(of):.1f} %",
                       f"{100 * BAR:.0f} %" if folder == "all" else None,
                       noticed >= BAR * len(of) if folder == "all" else None)
-    told = len(tried) - sum(not verdict["by"] and name in reasons for name, verdict in tried.items())
-    if told:
-        shown.row(f"without {len(tried) - told} mutants that change no result (left.txt)",
-                  f"{noticed} of {told}: {100 * noticed / told:.1f} %", None, None)
+    with_effect = len(tried) - sum(not verdict["by"] and name in reasons for name, verdict in tried.items())
+    if with_effect:
+        shown.row(f"without {len(tried) - with_effect} mutants that change no result (left.txt)",
+                  f"{noticed} of {with_effect}: {100 * noticed / with_effect:.1f} %", None, None)
     return shown.finish()
 
 

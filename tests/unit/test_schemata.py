@@ -20,7 +20,7 @@ SOURCE = """#include <stdio.h>
 struct bits { unsigned few : 3; };
 static const int limits[] = { 5, 6 };
 static int next(int *n) { return ++*n; }
-static int told(const char *text) { return text ? 1 : 0; }
+static int has_text(const char *text) { return text ? 1 : 0; }
 int main(int n, char **args)
 {
 	struct bits bits = { 3 };
@@ -34,7 +34,7 @@ int main(int n, char **args)
 	if (next(&calls) + n > 3 && n > 2)
 		sum *= 3;
 	for (int i = 0; i < n; i++)
-		sum += limits[0] + told(args[0]) * (int)bits.few;
+		sum += limits[0] + has_text(args[0]) * (int)bits.few;
 	printf("%d %d\\n", sum, calls);
 	return 0;
 }
@@ -67,7 +67,7 @@ class Schemata(unittest.TestCase):
                 wanted = subprocess.run([f"single/{number}", *arguments], cwd=SCRATCH, capture_output=True, text=True,
                                         check=False)
                 self.assertEqual(run({"RELUME_MUTANT": str(number)}, *arguments),
-                                 wanted.stdout.strip() or f"code {wanted.returncode}", site.told())
+                                 wanted.stdout.strip() or f"code {wanted.returncode}", site.described())
 
     def test_who_could_tell(self):
         seen = {}
@@ -78,9 +78,9 @@ class Schemata(unittest.TestCase):
             for number, what in enumerate((SCRATCH / "seen").read_bytes()):
                 seen.setdefault(number, []).append(what)
                 if number in self.by_number and run({"RELUME_MUTANT": str(number)}, *arguments) != alone:
-                    self.assertEqual(what & 2, 2, f"{self.by_number[number].told()} changes what is printed")
+                    self.assertEqual(what & 2, 2, f"{self.by_number[number].described()} changes what is printed")
         of = {
-            site.told().split(": ")[1] + f" line {site.line}": seen[number] for number, site in self.by_number.items()
+            site.described().split(": ")[1] + f" line {site.line}": seen[number] for number, site in self.by_number.items()
         }
         self.assertEqual(of["branch `next(&calls) + n > 3 && n > 2` -> `(next(&calls) + n > 3 && n > 2) && 0` line 18"],
                          [0, 3], "not taken the first time")

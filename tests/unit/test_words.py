@@ -34,7 +34,12 @@ class Prose(unittest.TestCase):
         self.assertEqual(habits("a.h", "/**\n * Frames such\n * that a file\n * goes by them.\n */\n// so\n// many\n"),
                          [("goes-by", 4), ("so-many", 6), ("such-that", 2)])
 
+    def test_a_literal_that_continues_a_sentence_has_no_beginning(self):
+        self.assertEqual(habits("a.c", 'f("%" PRIu64 " of %u frames", "of the one");\nf("what is it? " "told");\n'),
+                         [("begins-of", 1), ("begins-what", 2), ("told", 2)])
+
     def test_other_uses_of_the_same_words_are_no_habit(self):
+        self.assertEqual(habits("a.h", "/* A camera that stands still; a stand-in; it stands for one. */\n"), [])
         self.assertEqual(habits("a.h", "/* Integers that stand for [-1,1]; as many as fit; of a file. */\n"), [])
         self.assertEqual(habits("a.c", '/* url: http://whence */\nf("%s");\n'), [("whence", 1)])
 

@@ -72,7 +72,7 @@ void outcome_write(const char *folder, const struct device_description *device, 
 	if (name_file(folder, device, path, key))
 		failed = kept_write(path, key, outcome, sizeof(*outcome));
 	if (failed > 0)
-		err_warn(folder, "what was found out about devices is not kept there: %s", strerror(failed));
+		err_warn(folder, "cannot save the outcome of checking a device here: %s", strerror(failed));
 }
 
 int outcome_best(const struct outcome *outcome, enum device_family preferred)

@@ -40,7 +40,7 @@ static void load(void)
 	*(void **)&bridge.draw_text = dlsym(library, "oiio_draw_text");
 	bridge.whole = bridge.fork && bridge.read && bridge.encode && bridge.compare_yee && bridge.draw_text;
 	if (!bridge.whole)
-		err_report(ERR_SYSTEM, path, "is of another version of Relume");
+		err_report(ERR_SYSTEM, path, "belongs to another version of Relume");
 }
 
 static int loaded(void)

@@ -172,7 +172,7 @@ static void find_for_lit(const struct dome *d, struct findings *out)
 	struct finding *rule = findings_add(out, FINDINGS_SKY, "ambient light");
 
 	finding_explain(rule, d->lit / (d->unlit + d->lit),
-	                "OpenGL lights %.0f %% of what is solid; what stands close dims the light from all around",
+	                "OpenGL lights %.0f %% of what is solid; things close by dim the light from all around",
 	                100 * d->lit / (d->unlit + d->lit));
 	FINDING_SET(rule, FINDING_NUMBER("reach", 4, REACH_LIT * middle_size(d->sizes[1])),
 	            FINDING_VECTOR("light", 1, 1, 1, 1), FINDING_NUMBER("lit", 6, LIT_SHARE), FINDING_IS("unlit", 0));

@@ -63,7 +63,7 @@ static void find_shadow(const struct tricks *t, unsigned first, const struct sol
 		snprintf(lights, sizeof(lights), is_volume ? "%u lights" : "one light each, %u planes and lights in all", n);
 	finding_explain(rule, confidence_of(votes), "%u draws in %u frames %s %s; %s", votes, frames,
 	                is_volume ? "have edges that meet in" : "are flattened away from", lights,
-	                is_replaced(f, s) ? "what they darken is lit from there, and traced shadows replace them" :
+	                is_replaced(f, s) ? "traced shadows replace them, as the surfaces below are lit from there" :
 	                                    "no light is known there, and so they stay");
 	if (!is_volume && n == 1)
 		FINDING_SET(rule, FINDING_PLANE("plane", f->plane));
@@ -88,7 +88,7 @@ static void find_mirror(const struct trick_found *f, struct findings *out)
 		return;
 	FINDING_SET(rule, FINDING_IS("left_out", 1), FINDING_IS("shadows", 0), FINDING_IS("mirrors", 0));
 	rule = findings_add(out, FINDINGS_SURFACES, "mirror");
-	finding_explain(rule, confidence_of(f->votes), "it is blended over its picture, of which %.0f %% show",
+	finding_explain(rule, confidence_of(f->votes), "it is blended over its picture and lets %.0f %% of it show",
 	                100 * f->shows);
 	FINDING_SET(rule, FINDING_PLANE("plane", f->plane));
 	FINDING_MATCH(rule, FINDING_PLANE("in_plane", f->plane), FINDING_IS("blended", 1),
@@ -159,7 +159,7 @@ static void find_solved(const struct solved *s, const char *of, struct findings 
 	struct finding *rule = findings_add(out, FINDINGS_LIGHTS, "ambient light of %s", of);
 	static const double above[3] = { 0, 1, 0 };
 
-	finding_explain(rule, explained_share(s), "what no light explains is as bright as this everywhere");
+	finding_explain(rule, explained_share(s), "light that no lamp explains is this bright everywhere");
 	FINDING_SET(rule, FINDING_NAMED("on", "unlit"), FINDING_NAMED("space", "world"),
 	            FINDING_PLACE("position", 7, above, 0),
 	            FINDING_VECTOR("ambient", 5, s->ambient[0], s->ambient[1], s->ambient[2]),

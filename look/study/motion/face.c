@@ -25,7 +25,7 @@ int face_of(const struct scene_mesh *mesh, const double place[16], uint32_t prim
 	return matrix_normalize3(out->normal);
 }
 
-enum { CORNERS = 9 }; /* of a triangle clipped by five planes, plus one */
+enum { CORNERS = 9 }; /* a triangle clipped by five planes has one less */
 
 /* Clip a polygon by a side of the view volume; points where the sum is negative are outside. */
 static unsigned cut(double (*p)[4], unsigned n, const double side[4])

@@ -2,7 +2,7 @@
  * The viewer's position in each frame, and which things stand still, move, or move with the viewer, all derived from
  * where meshes are drawn.
  *
- * A mesh that was drawn before gives the camera under which it stands still: its modelview times the inverse of its
+ * A mesh that was drawn before gives the camera that keeps it where it was: its modelview times the inverse of its
  * place in the world. The camera that most of the frame agrees on, by size, is taken. World space is the eye space of
  * the first frame.
  */
@@ -48,7 +48,7 @@ struct motion_camera {
 	double share;  /* share, by size, of the things seen before that stand still under it */
 	int witnessed; /* 0: nothing was seen before, and this is the previous camera */
 	int moved;
-	uint32_t part; /* part of the recording, through which the camera can be followed; each has its own world
+	uint32_t part; /* part of the recording where the camera can be followed; each part has its own world
 	                  space */
 };
 

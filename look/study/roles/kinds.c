@@ -177,13 +177,13 @@ static const struct rule rules[] = {
 	  1u << KIND_SKY, 3 },
 	{ "decal", "lie on what was drawn before them", NO_SHADOW, 1u << KIND_DECAL, 3 },
 	{ "blob shadow",
-	  "darken what they lie on, below a thing that stands there; traced shadows of OpenGL's lights replace them",
+	  "darken what they lie on, below a thing on it; traced shadows of OpenGL's lights replace them",
 	  IS_REPLACED, 1u << KIND_LIT_SHADOW, 3 },
 	{ "blob shadow",
-	  "darken what they lie on, below a thing that stands there; no light of OpenGL's does, and so they stay",
+	  "darken what they lie on, below a thing on it; no light of OpenGL's does, and so they stay",
 	  STAYS, 1u << KIND_SHADOW, 1 },
 	{ "blob shadow",
-	  "darken what they lie on, below a thing that stands there; traced shadows of the lights below replace them",
+	  "darken what they lie on, below a thing on it; traced shadows of the lights below replace them",
 	  IS_REPLACED, 1u << KIND_SHADOW, 2 },
 };
 

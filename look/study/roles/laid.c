@@ -268,7 +268,7 @@ static int is_alike(const struct ball *a, const struct ball *b)
 	return a->radius < ALIKE * b->radius && b->radius < ALIKE * a->radius;
 }
 
-/* 1 if something solid of similar size stands on a draw. */
+/* 1 if something solid of similar size rests on a draw. */
 static int has_thing(const struct scene *s, const struct ball *balls, uint32_t instance, const struct ground *ground)
 {
 	const struct ball *ball = &balls[instance];

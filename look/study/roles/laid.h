@@ -1,6 +1,6 @@
 /*
  * Flat pictures laid on surfaces, found in a single frame: draws that write no depth, or are offset towards the
- * viewer, and lie on something drawn earlier. Such a draw is a shadow if it only darkens and an object stands on it,
+ * viewer, and lie on something drawn earlier. Such a draw is a shadow if it only darkens and an object rests on it,
  * else a decal.
  */
 #pragma once

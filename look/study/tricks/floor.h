@@ -1,6 +1,6 @@
 /*
  * Smooth, dark floors, such as polished stone, which mirror what is on them. If OpenGL lights a floor, its specular
- * colour gives its reflectance (look/draws/gloss.h). If not, shadows flattened onto it prove that things stand on it,
+ * colour gives its reflectance (look/draws/gloss.h). If not, shadows flattened onto it prove that things rest on it,
  * and its texture must have no grain, unlike grass, cloth and sand.
  */
 #pragma once
