@@ -5,8 +5,9 @@ SHOWS := show-house show-rays show-rays-avx2 show-hits show-query show-build sho
 	show-batch-faults show-device-faults
 SCRIPTS := beyond bisect ci crashes cryptomatte devices export farm faults flaky frames fuzz generated hooks inject \
 	journeys kill look mutants oclgrind overhead page parity path photons reach reduce relit replay rooms same \
-	sandbox sanitize seek film lot soak sweep sweep-record thesis
-SCRIPT_bisect := bisection# a bisect.py would stand before Python's own
+	sandbox sanitize seek film lot soak sweep sweep-record thesis words
+SCRIPT_bisect := bisection# Python has a module bisect
+SCRIPT_words := prose# which imports tests/words.py
 ON_SCREEN := ci crashes frames mutants replay
 SHOWS += $(SCRIPTS:%=show-%)
 

@@ -72,6 +72,16 @@ def passages(name, text):
         yield match.start() + start, clean[start:]
 
 
+def folder_of(file):
+    return file.partition("/")[0] if "/" in file else "."
+
+
+def allowed(root):
+    """{(habit, folder): the number of places that BARS allows}"""
+    rows = [line.split() for line in (root / BARS).read_text().splitlines() if line[:1] != "#"]
+    return {(habit, folder): int(count) for habit, folder, count in rows}
+
+
 def places(root, files):
     """{(habit, folder): [(file, line)]}"""
     found = collections.defaultdict(list)
@@ -82,7 +92,7 @@ def places(root, files):
             for habit, expression, _, _ in HABITS:
                 for match in expression.finditer(prose):
                     line = bisect.bisect_left(ends, offset + match.start()) + 1
-                    found[habit, file.partition("/")[0] if "/" in file else "."].append((file, line))
+                    found[habit, folder_of(file)].append((file, line))
     return found
 
 
@@ -113,9 +123,7 @@ def added_lines(root):
 
 def faults(root):
     """(faults, notes), a line each."""
-    rows = [line.split() for line in (root / BARS).read_text().splitlines() if line[:1] != "#"]
-    bars = {(habit, folder): int(count) for habit, folder, count in rows}
-    found, added, wrong = places(root, sources(root)), added_lines(root), []
+    bars, found, added, wrong = allowed(root), places(root, sources(root)), added_lines(root), []
     for habit, _, reason, better in HABITS:
         for (name, folder), where in sorted(found.items()):
             if name == habit and len(where) > (bar := bars.get((name, folder), 0)):

@@ -18,8 +18,8 @@ class Shown:
 
     def row(self, what, figure, bar, passed, peer=None):
         self.rows.append({"what": what, "figure": figure, "bar": bar, "peer": peer, "passed": passed})
-        print({True: "holds", False: "FAILS", None: "-    "}[passed], what, figure, *([peer] if peer else []), sep="  ",
-              flush=True)
+        print({True: "holds", False: "FAILS", None: "-    "}[passed], what, figure,
+              *([] if bar is None else [f"(bar: {bar})"]), *([peer] if peer else []), sep="  ", flush=True)
 
     def finish(self):
         """The exit code."""

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """No folder gains habits that make sentences read as translated (tests/words.py), and the count notices them."""
+import json
 import pathlib
 import subprocess
 import sys
@@ -83,6 +84,22 @@ class Ratchet(unittest.TestCase):
         (self.root / "film").mkdir()
         (self.root / "film/b.py").write_text("# whence\n")
         self.assertEqual(words.faults(self.root)[0][1:], ["  film/b.py:1"])
+
+
+class Shown(unittest.TestCase):
+    """make show-words."""
+
+    def test_counts_and_bars_of_each_folder_are_written(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([sys.executable, "-B", ROOT / "tests/show/prose.py", folder], capture_output=True,
+                                  text=True, check=False)
+            shown = json.loads((pathlib.Path(folder) / "show/words.json").read_text())
+        self.assertEqual((done.returncode, shown["name"], shown["command"]), (0, "words", "make show-words"))
+        rows = {row["what"].split(":")[0]: row for row in shown["rows"]}
+        self.assertTrue({"all", "base", "docs", "tests"} <= set(rows))
+        total = sum(words.allowed(ROOT).values())
+        self.assertEqual(rows["all"]["bar"], f"<= {total}")
+        self.assertEqual(sum(int(row["bar"][3:]) for name, row in rows.items() if name != "all"), total)
 
 
 class Real(unittest.TestCase):
