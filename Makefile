@@ -20,7 +20,7 @@ endif
 # goals install.
 HAVE := $(BUILD)/have
 INSTALLING := $(if $(filter-out show-suites,$(filter bench check deps fuzz fuzz-keep golden-update show show-% \
-	test-programs,$(MAKECMDGOALS))),check) $(filter deb picture,$(MAKECMDGOALS))
+	test-programs,$(MAKECMDGOALS))),check) $(filter deb gallery picture,$(MAKECMDGOALS))
 PYTHON := /usr/bin/python3
 Q := $(if $(V),,@)
 # PATH may have another python; the generators need only Debian's.
@@ -207,6 +207,10 @@ demo:
 picture: all $(BUILD)/corpus/glx/marbles
 	@corpus/picture.sh $(BUILD)
 
+# The pictures of docs/look.md.
+gallery: all $(addprefix $(BUILD)/corpus/,cornell facets phong spheres street)
+	@corpus/gallery.sh $(BUILD)
+
 # Man pages and shell completion are made from the command's help texts and those about file formats.
 $(BUILD)/pages/stamp: packaging/pages.py packaging/manual.py $(wildcard packaging/debian/changelog) $(BUILD)/relume
 	$(Q)rm -rf $(@D)
@@ -229,7 +233,7 @@ clean:
 	$(Q)rm -rf $(BUILD)
 
 FORCE:
-.PHONY: all deps pages install uninstall deb check demo picture clean FORCE
+.PHONY: all deps pages install uninstall deb check demo picture gallery clean FORCE
 # Keep objects, including those that only a pattern rule names.
 .PRECIOUS: $(BUILD)/%.o
 -include $(COMMAND_OBJ:.o=.d) $(OIIO_OBJ:.o=.d) $(RECORDER_OBJ:.o=.d)
