@@ -65,6 +65,14 @@ class Documents(unittest.TestCase):
                 self.assertTrue("NAME" in name or name.startswith(("ci/", "build/")) or (ROOT / name).exists(),
                                 f"{page.name} names {name}")
 
+    def test_files_of_a_pictures_parts_exist(self):
+        rows = re.findall(r"^\| [^`|]+ \| ((?:`\w+\.h`(?:, )?)+) \| `(\w+\.c)` \|$", text("docs/architecture.md"), re.M)
+        self.assertGreater(len(rows), 4)
+        for kernels, launches in rows:
+            for folder, names in (("kernels/frame", re.findall(r"`(.*?)`", kernels)), ("tracer/frame", [launches])):
+                for name in names:
+                    self.assertTrue(any((ROOT / folder).rglob(name)), f"docs/architecture.md names {folder}/.../{name}")
+
     def test_each_document_is_in_the_readme(self):
         for page in PAGES[1:]:
             self.assertIn(f"]({page.relative_to(ROOT)})", text("README.md"))
