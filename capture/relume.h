@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /*
  * For programs that can be recompiled: hints that OpenGL cannot express. Only this header is needed; no library.
  *

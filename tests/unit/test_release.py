@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 import unittest
 
 import yaml
@@ -84,6 +85,20 @@ class Documents(unittest.TestCase):
             head = re.match(r"---\n(.*?)\n---\n", page.read_text(encoding="utf-8"), re.S)
             self.assertTrue(head, page.name)
             self.assertTrue({"name", "about"} <= set(yaml.safe_load(head[1])), page.name)
+
+
+class Licence(unittest.TestCase):
+    def test_one_annotation_covers_the_tree(self):
+        annotation, = tomllib.loads(text("REUSE.toml"))["annotations"]
+        self.assertEqual((annotation["path"], annotation["SPDX-License-Identifier"]), ("**", "MIT"))
+        self.assertIn(annotation["SPDX-FileCopyrightText"], text("LICENSE"))
+        self.assertEqual(text("LICENSES/MIT.txt"), text("LICENSE"))
+
+    def test_headers_that_are_installed_name_it(self):
+        headers = re.findall(r"^place \d+ (\S+\.h) ", text("packaging/install.sh"), re.M)
+        self.assertGreaterEqual(len(headers), 2)
+        for name in headers:
+            self.assertRegex(text(name), r"\A/\* SPDX-License-Identifier\: MIT \*/\n")
 
 
 class Servers(unittest.TestCase):

@@ -1,3 +1,4 @@
+/* SPDX-License-Identifier: MIT */
 /*
  * Rays and distances for other programs: against a frame of a recording, or your own triangles, on any OpenCL device.
  *
