@@ -2,6 +2,7 @@
 #   make                    build; lists missing packages, installs nothing
 #   make demo               install what this needs; record, ray trace and score a real program
 #   make check              install what tests need, run all of them on all cores; ONLY="part of a name" runs some
+#   make lint               clang-tidy and GCC's analyzer, without findings; CI files by their schemas; SPDX
 #   make deps               install the Debian packages of both; make deps-GROUP: of one group of packaging/deps.txt
 #   make bench              compare the traversal kernels with Embree's
 #   make show               print all figures with their bars
@@ -12,15 +13,15 @@
 #   BUILD=DIR               build elsewhere
 SAN ?=
 BUILD ?= build$(if $(SAN),/san)
-# Tests use all cores unless -j is given.
-ifneq ($(filter check,$(MAKECMDGOALS)),)
+# Tests and analyzers use all cores unless -j is given.
+ifneq ($(filter check lint,$(MAKECMDGOALS)),)
 MAKEFLAGS += -j$(shell nproc)
 endif
 # HAVE exists once all packages that a build needs are installed. INSTALLING: groups (packaging/deps.txt) that the
 # goals install.
 HAVE := $(BUILD)/have
 INSTALLING := $(if $(filter-out show-suites,$(filter bench check deps fuzz fuzz-keep golden-update show show-% \
-	test-programs,$(MAKECMDGOALS))),check) $(filter deb gallery picture,$(MAKECMDGOALS))
+	test-programs,$(MAKECMDGOALS))),check) $(filter deb gallery lint picture,$(MAKECMDGOALS))
 PYTHON := /usr/bin/python3
 Q := $(if $(V),,@)
 # PATH may have another python; the generators need only Debian's.
@@ -195,7 +196,7 @@ $(BUILD)/deps.%: packaging/deps.txt
 	@touch $@
 
 # Prerequisites of make check, programs for other systems, figures, fuzzing, and the recorder for 32-bit programs.
-include tests/check.mk tests/foreign.mk tests/show.mk tests/fuzz.mk packaging/i386.mk
+include tests/check.mk tests/lint.mk tests/foreign.mk tests/show.mk tests/fuzz.mk packaging/i386.mk
 
 check: all pages $(CORPUS) $(TESTS_ASKED) $(BUILT_FOR_TESTS)
 	$(Q)$(PYTHON) tests/run.py $(BUILD) $(ONLY)

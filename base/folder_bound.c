@@ -60,7 +60,7 @@ int folder_keep_bound(const char *folder, const char *pattern, uint64_t most, ui
 	n = list_kept(dir, pattern, &kept);
 	for (size_t i = 0; i < n; i++)
 		bytes += kept[i].bytes;
-	if (bytes > most) {
+	if (kept && bytes > most) {
 		qsort(kept, n, sizeof(*kept), compare_kept);
 		for (size_t i = 0; i < n && bytes > left; i++) {
 			unlinkat(dirfd(dir), kept[i].name, 0);

@@ -90,7 +90,7 @@ static int is_disjoint(const struct frame_list *list)
 /* 1 if counting the frames one by one, over all ranges, takes too long. */
 static int is_too_long(const struct frame_list *list)
 {
-	uint64_t left = MOST_STEPS / list->n_ranges;
+	uint64_t left = MOST_STEPS / (list->n_ranges ? list->n_ranges : 1);
 
 	for (size_t i = 0; i < list->n_ranges; i++) {
 		uint64_t steps = (list->ranges[i].last - list->ranges[i].first) / list->ranges[i].step;

@@ -114,7 +114,7 @@ int press_plan(const struct press_list *keys, uint64_t quit_after, char **out)
 	}
 	if (!err)
 		qsort(events, 2 * keys->n, sizeof(*events), compare);
-	for (size_t i = 0; !err && i < 2 * keys->n; i++)
+	for (size_t i = 0; list && !err && i < 2 * keys->n; i++)
 		fprintf(list, "%s%" PRIu64 ":%d:%d:%u", i ? " " : "", events[i].frame, events[i].type, events[i].key.code,
 		        events[i].key.state);
 	if (list && fclose(list) && !err)

@@ -217,7 +217,7 @@ static void write_instance_node(struct json *j, const struct gltf *g, const stru
 	json_begin(j, '{');
 	json_key_string(j, "name", name);
 	json_key_uint(j, "mesh", n->part);
-	if (g->parts[n->part].baked == SCENE_NONE && memcmp(in->modelview, mat4_identity, sizeof(in->modelview)))
+	if (g->parts[n->part].baked == SCENE_NONE && memcmp(in->modelview, mat4_identity, sizeof(in->modelview)) != 0)
 		json_key_floats(j, "matrix", in->modelview, 16);
 	json_end(j, '}');
 }

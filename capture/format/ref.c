@@ -258,6 +258,7 @@ static int copy_record(const struct ref_file *ref, const struct ref_entry *entry
 	if (!rc && (!(planes = malloc(4 * n)) || !(record = malloc(ref_pack_room(n))) ||
 	            !(bytes = ref_pack(&c->last[k], &head, c->at, pixels, c->before[k], planes, record))))
 		rc = err_report(ERR_SYSTEM, ref->path, "out of memory");
+	/* NOLINTNEXTLINE(clang-analyzer-unix.Malloc): c->before, which ref_copy frees */
 	if (!rc && fwrite(record, 1, bytes, c->out) != bytes)
 		rc = err_report(ERR_SYSTEM, c->path, "cannot be written: %s", strerror(errno));
 	free(record);

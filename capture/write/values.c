@@ -41,6 +41,7 @@ uint8_t *put_chars(uint8_t *p, const char *s)
 	size_t n = strlen(s);
 
 	p = put_varint(p, n);
+	/* NOLINTNEXTLINE(bugprone-not-null-terminated-result): its length is before it */
 	memcpy(p, s, n);
 	return p + n;
 }

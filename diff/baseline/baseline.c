@@ -195,7 +195,7 @@ static void compare_lists(const char *now, const char *was, struct score_approve
 		int n = (int)strcspn(now, " "), w = (int)strcspn(was, " ");
 		int now_name = (int)strcspn(now, ":"), was_name = (int)strcspn(was, ":");
 		int order = !*now ? 1 : !*was ? -1
-			: strncmp(now, was, (size_t)((now_name > was_name ? now_name : was_name) + 1));
+			: strncmp(now, was, (size_t)(now_name > was_name ? now_name : was_name) + 1);
 		const char *name = order <= 0 ? now : was;
 		int length = order <= 0 ? now_name : was_name;
 

@@ -51,7 +51,7 @@ static void put_group(const struct output_run *run, const struct group *group, F
 		output_gate_text(s, (enum score_gate_id)g, text, sizeof(text));
 		if (*comparison)
 			fputs("<br>", out);
-		if (strcmp(comparison, groups_comparison(g)))
+		if (strcmp(comparison, groups_comparison(g)) != 0)
 			fprintf(out, "%s: ", groups_comparison(g));
 		fprintf(out, "**%s** ", score_gates[g].name);
 		put(text, out);

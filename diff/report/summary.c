@@ -170,7 +170,7 @@ static void put_gates(const struct score *s, enum score_state state, FILE *out)
 
 		if (s->gates[g].state != state)
 			continue;
-		if (strcmp(comparison, groups_comparison(g))) {
+		if (strcmp(comparison, groups_comparison(g)) != 0) {
 			comparison = groups_comparison(g);
 			fprintf(out, "  %s%s\n", state == SCORE_WARNED ? "warning: " : "", comparison);
 		}

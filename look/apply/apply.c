@@ -143,10 +143,11 @@ static int copy_scene(struct applying *a)
 	out->n_shared_parameters = out->n_parameters;
 	if (n)
 		memcpy(out->instances, scene->instances, n * sizeof(*out->instances));
-	for (uint32_t v = 0; v < 2 * scene->n_views; v++) {
-		out->views[v] = scene->views[v % scene->n_views];
-		if (v >= scene->n_views) /* a view that covers no pixel (meshes_repair) */
-			memset(out->views[v].scissor, 0, sizeof(out->views[v].scissor));
+	for (uint32_t v = 0; v < scene->n_views; v++) {
+		struct scene_view *covers_nothing = &out->views[scene->n_views + v]; /* meshes_repair */
+
+		out->views[v] = *covers_nothing = scene->views[v];
+		memset(covers_nothing->scissor, 0, sizeof(covers_nothing->scissor));
 	}
 	if (scene->n_materials)
 		memcpy(out->materials, scene->materials, scene->n_materials * sizeof(*out->materials));

@@ -115,15 +115,16 @@ static int counts(const struct scene *s, uint32_t i)
 int bridge_is_cut(const struct bridge *b)
 {
 	const struct scene *s = b->base;
-	uint64_t n_triangles = 1;
+	uint64_t n_triangles = 1, most;
 	double all = 0, kept = 0;
 
 	for (uint32_t i = 0; i < s->n_instances; i++)
 		n_triangles += counts(s, i) ? s->meshes[s->instances[i].mesh]->primitive_count : 0;
+	most = ALL_POINTS / n_triangles + 1;
 	for (uint32_t i = 0; i < s->n_instances; i++) {
 		const struct shown now = shown_of(s, i);
 		const uint32_t other = b->couples[i].other, step = (uint32_t)(n_triangles / ALL_POINTS) + 1,
-		               n = (uint32_t)fmin(MOST_POINTS, (double)(ALL_POINTS / n_triangles + 1));
+		               n = (uint32_t)(most < MOST_POINTS ? most : MOST_POINTS);
 		struct shown was;
 
 		if (!counts(s, i))

@@ -224,6 +224,7 @@ static void couple_partners(const struct kind *kind, const uint32_t *partners)
 	double forth = 0, back = 0;
 
 	for (uint32_t i = 0; i < kind->g->n; i++)
+		/* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage): couple_kind has set them all */
 		couple_partner(kind, i, partners[i], &forth);
 	for (uint32_t i = kind->g->n; i-- > 0;)
 		couple_partner(kind, i, partners[i], &back);

@@ -83,7 +83,7 @@ static int switch_thread(struct gls_exec *x, uint64_t thread)
 		x->n_threads = thread + 1;
 	}
 	x->thread = thread;
-	x->current = x->threads[thread];
+	x->current = x->threads[thread]; /* NOLINT(clang-analyzer-core.NullDereference): thread < n_threads */
 	x->st = x->current ? &x->current->state : NULL;
 	return 0;
 }

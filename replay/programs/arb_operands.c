@@ -275,7 +275,7 @@ static uint32_t take_fetched(struct arb_parser *p, const struct arb_symbol *arra
 	arb_expect(w, ']');
 	*to = *to ? *to : arb_new_registers(p);
 	p->n_fetched++;
-	if (!w->why)
+	if (address && !w->why)
 		emit_fetch(&p->emitter, *to, p->elements[array->first], array->count, address->first,
 		           arb_literal(p, offset, 0, 0, 0));
 	return *to;

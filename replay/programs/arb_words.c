@@ -80,8 +80,9 @@ uint32_t arb_index(struct arb_words *w, uint32_t limit)
 	uint32_t value = 0;
 	bool any = false;
 
-	for (char c = arb_peek(w); w->at < w->end && isdigit((unsigned char)(c = *w->at)); w->at++) {
-		value = value * 10 + (uint32_t)(c - '0');
+	arb_peek(w);
+	for (; w->at < w->end && isdigit((unsigned char)*w->at); w->at++) {
+		value = value * 10 + (uint32_t)(*w->at - '0');
 		any = true;
 		if (value >= limit)
 			break;

@@ -19,7 +19,7 @@ enum { ROUNDS = 4 };
 
 static double volume_of(const struct shape *s)
 {
-	const double *middle = s->n_points ? s->points[0] : NULL;
+	const double *middle = s->points[0];
 	double sum = 0;
 
 	for (size_t f = 0; f < s->n_faces; f++) {

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Consistency of a release: one version everywhere, working links in documents, CI files that run `make check`."""
+"""Consistency of a release: one version everywhere, working links in documents, CI files that run `make check` and
+`make lint`."""
 import pathlib
 import re
 import shutil
@@ -12,6 +13,7 @@ import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SUITES = {"bookworm", "trixie"}
+LINT_IMAGE = "debian:bookworm"
 README_LINES = 120
 PAGES = [ROOT / name
          for name in ("README.md", "HACKING.md", "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md")] + sorted(
@@ -115,27 +117,34 @@ class Servers(unittest.TestCase):
         self.assertEqual(set(jobs[True]), {"push", "pull_request"}, "YAML 1.1 reads the key `on` as true")
         self.assertEqual(jobs["permissions"], {"contents": "read"}, "a check needs to write nothing")
         self.assertTrue(jobs["jobs"])
+        self.assertEqual(set(jobs["jobs"]), {"check", "lint"})
         for name, job in jobs["jobs"].items():
-            self.check_suites(job["container"]["image"], "${{ matrix.suite }}", job["strategy"]["matrix"]["suite"])
-            self.assertFalse(job["strategy"]["fail-fast"], name)
+            if name == "lint":
+                self.assertEqual(job["container"]["image"], LINT_IMAGE)
+            else:
+                self.check_suites(job["container"]["image"], "${{ matrix.suite }}", job["strategy"]["matrix"]["suite"])
+                self.assertFalse(job["strategy"]["fail-fast"], name)
             steps = [step.get("run", step.get("uses", "")) for step in job["steps"]]
-            self.assertEqual(steps[-1], "make check", name)
+            self.assertEqual(steps[-1], f"make {name}", name)
             checkout = next(i for i, step in enumerate(steps) if step.startswith("actions/checkout@"))
             self.assertTrue(any(re.search(r"apt-get install .*\bgit make$", step) for step in steps[:checkout]),
                             "bare images have no git and no make")
 
     def test_gitlab(self):
         jobs = yaml.safe_load(text(".gitlab-ci.yml"))
-        self.assertTrue(jobs)
+        self.assertEqual(set(jobs), {"check", "lint"})
         for name, job in jobs.items():
-            matrix = job["parallel"]["matrix"]
-            self.check_suites(job["image"], "$SUITE", [suite for row in matrix for suite in row["SUITE"]])
-            self.assertEqual(job["script"], ["make check"], name)
+            if name == "lint":
+                self.assertEqual(job["image"], LINT_IMAGE)
+            else:
+                matrix = job["parallel"]["matrix"]
+                self.check_suites(job["image"], "$SUITE", [suite for row in matrix for suite in row["SUITE"]])
+            self.assertEqual(job["script"], [f"make {name}"], name)
             self.assertTrue(any(re.search(r"apt-get install .*\bgit make$", line) for line in job["before_script"]),
                             name)
             self.assertNotIn("allow_failure", job, name)
 
-    @unittest.skipUnless(shutil.which("check-jsonschema"), "check-jsonschema (PyPI) is not installed")
+    @unittest.skipUnless(shutil.which("check-jsonschema"), "check-jsonschema (PyPI) is not installed; make lint has it")
     def test_schemas(self):
         for files, options in (((".github/workflows/check.yml", "packaging/recipes/github.yml"),
                                 ("--builtin-schema", "vendor.github-workflows")),

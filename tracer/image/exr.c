@@ -124,6 +124,7 @@ static exr_result_t define_part(exr_context_t file, const struct image *img, con
 	if (rc == EXR_ERR_SUCCESS)
 		rc = exr_initialize_required_attr_simple(file, part, (int32_t)img->width, (int32_t)img->height,
 		                                         EXR_COMPRESSION_ZIP);
+	/* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): packed when it is written */
 	for (size_t i = 0; i < pack->n_channels && rc == EXR_ERR_SUCCESS; i++)
 		rc = exr_add_channel(file, part, pack->sorted[i]->name,
 		                     pack->sorted[i]->full_float ? EXR_PIXEL_FLOAT : EXR_PIXEL_HALF,

@@ -122,6 +122,7 @@ static int pack_rows(struct image *img, const void *const *planes, uint32_t n)
 		err = pack_until(img->pack, img, planes, row, end);
 	if (err)
 		return err;
+	/* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): pack_create has set it */
 	if (img->pack->n_packed * PACK_ROWS > img->first) {
 		img->first = img->pack->n_packed * PACK_ROWS;
 		keep_rows(img, planes, img->first - row, img->first < end ? end - img->first : 0, 0);

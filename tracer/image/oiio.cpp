@@ -198,7 +198,7 @@ int find_windows(OIIO::ImageInput &in, bool all_parts, int64_t most, windows &ou
 
 	out = { first.x, first.y, 0, 0, 0 };
 	for (int part = 0; in.seek_subimage(part, 0) && (part == 0 || all_parts); part++) {
-		const OIIO::ImageSpec spec = in.spec();
+		const OIIO::ImageSpec &spec = in.spec();
 
 		if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > MAX_CHANNELS ||
 		    int64_t(spec.width) * spec.height > most)

@@ -81,7 +81,7 @@ static int look(struct eyes *e, int side, size_t frame, struct oiio_pixels *out)
 static void drop_pictures(struct sight *s)
 {
 	for (int side = 0; side < N_SIDES; side++) {
-		free(s->pictures[side].rgb);
+		free(s->pictures[side].rgb); /* NOLINT(clang-analyzer-unix.Malloc): set to NULL below */
 		s->pictures[side] = (struct oiio_pixels){ .rgb = NULL };
 	}
 }

@@ -65,6 +65,7 @@ static int take(struct side *s, const struct call **call)
 			return rc ? rc : err_report(ERR_INPUT, s->recording->path, "has changed while it was read");
 		s->read++;
 	}
+	/* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): s->read <= at on entry, so that a call has been read */
 	s->number = (*call)->number;
 	s->effect |= effect_of(s, *call);
 	s->next++;

@@ -273,6 +273,7 @@ static int answer_all(struct stream *s)
 	int err = 0;
 	long n = 0;
 
+	/* NOLINTNEXTLINE(clang-analyzer-unix.MallocSizeof): for the longest kind of query, in floats */
 	s->numbers = malloc(BATCH * sizeof(struct relume_rays_body));
 	s->answers.any = malloc(BATCH * per * sizeof(struct relume_rays_distance));
 	s->counts = malloc(BATCH * sizeof(*s->counts));

@@ -83,7 +83,7 @@ static int tell_seen(const struct settings *settings, const struct seen *seen, s
 		err = image_set_attribute(img, "relume:projection", "%s", settings->camera->keys->kind);
 	if (!err && settings->camera && lens_eyes(settings->camera))
 		err = image_set_attribute(img, "relume:eyes", "%s", lens_eyes(settings->camera));
-	if (!err && seen->elsewhere.without)
+	if (!err && settings->camera && seen->elsewhere.without)
 		err_warn(settings->camera->path,
 		         "frame %llu: %u draws are left out: programs place their vertices, and nothing says where "
 		         "that is from elsewhere",

@@ -194,6 +194,7 @@ void watch_stop(struct watch **w)
 	if (!*w)
 		return;
 	atomic_store(&(*w)->done, 1);
+	/* NOLINTNEXTLINE(bugprone-bad-signal-to-kill-thread): blocked in all threads, this one waits for it */
 	pthread_kill((*w)->thread, SIGTERM); /* wakes it, and means nothing to it now */
 	pthread_join((*w)->thread, NULL);
 	while (sigtimedwait(&(*w)->signals, NULL, &none) > 0)

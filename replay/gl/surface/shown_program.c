@@ -162,6 +162,7 @@ static struct vec4 attribute(const float *array, const float *current, uint32_t 
 {
 	const float *from = array ? array + 4 * (size_t)v : current;
 
+	/* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): without an array there is a current value */
 	return v4(from[0], from[1], from[2], from[3]);
 }
 

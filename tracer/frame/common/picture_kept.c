@@ -6,7 +6,7 @@
 /* Copy a picture's planes from another of the same size; `to` has at least the planes of `from`. */
 static void copy_planes(struct scene_picture *to, const struct scene_picture *from, size_t n)
 {
-	memcpy(to->rgba, from->rgba, 4 * n);
+	memcpy(to->rgba, from->rgba, 4 * n); /* NOLINT(clang-analyzer-core.NullDereference): both have planes */
 	memcpy(to->depth, from->depth, n * sizeof(*to->depth));
 	memcpy(to->stencil, from->stencil, n);
 	if (to->colors)

@@ -162,10 +162,13 @@ static uint32_t add_grid(struct made *made, uint32_t material, uint32_t columns,
 	float (*position)[3] = malloc(n * sizeof(*position)), (*normal)[3] = malloc(n * sizeof(*normal));
 	uint32_t at = 0, i = 0;
 
-	for (uint32_t cell = 0; cell < columns * rows && position && normal; cell++)
+	for (uint32_t cell = 0; cell < columns * rows && position && normal; cell++) {
+		const uint32_t column = cell % columns, row = cell / columns;
+
 		for (int k = 0; k < 6; k++, at++)
-			point(user, (float)(cell % columns + (uint32_t)corners[k][0]) / (float)columns,
-			      (float)(cell / columns + (uint32_t)corners[k][1]) / (float)rows, position[at], normal[at]);
+			point(user, (float)(column + (uint32_t)corners[k][0]) / (float)columns,
+			      (float)(row + (uint32_t)corners[k][1]) / (float)rows, position[at], normal[at]);
+	}
 	if (at)
 		i = made_add_triangles(made, material, (const float (*)[3])position, (const float (*)[3])normal, n);
 	else
