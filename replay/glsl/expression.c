@@ -109,23 +109,50 @@ static uint32_t stride_of(const struct glsl_writer *w, uint32_t type)
 	return t->kind == GLSL_ARRAY ? glsl_type_of(w, t->first)->numbers : t->columns ? t->rows : 1;
 }
 
-/* Index an element at run time: all elements must be evenly spaced. */
+/* 1 if the elements of a value, every `stride` numbers, have operands at the same distance from one to the next. */
+static int is_even(const struct glsl_value *v, uint32_t stride, uint32_t n)
+{
+	const uint32_t count = v->n / stride, step = count > 1 ? v->at[stride] - v->at[0] : 0;
+	int even = step <= 4096;
+
+	for (uint32_t i = 0; i < count; i++)
+		for (uint32_t k = 0; k < n; k++)
+			even &= v->at[i * stride + k] == v->at[k] + i * step;
+	return even;
+}
+
+/* Copy a value into registers in a row. One that can be assigned, as it contains no constant, must stay where it is. */
+static void align(struct glsl_writer *w, struct glsl_place *p)
+{
+	const struct glsl_value row = glsl_fresh(w, p->value.type);
+	int is_fixed = 0;
+
+	for (uint32_t i = 0; i < p->value.n; i++)
+		is_fixed |= p->value.at[i] >= SCENE_PROGRAM_CONSTANT;
+	if (!is_fixed || p->offset != GLSL_NONE)
+		glsl_fail(w, "a shader indexes a value whose elements are not evenly spaced");
+	if (glsl_stopped(w))
+		return;
+	glsl_copy(w, row.at, p->value.at, row.n);
+	p->value = row;
+}
+
+/* Index an element at run time. */
 static void choose_element(struct glsl_writer *w, struct glsl_place *p, uint32_t type, uint32_t index)
 {
 	const uint32_t stride = stride_of(w, p->value.type), n = glsl_type_of(w, type)->numbers;
 	const uint32_t count = stride ? p->value.n / stride : 0;
-	const struct glsl_value first = slice(w, &p->value, type, 0);
 	uint32_t step, offset;
+	struct glsl_value first;
 
 	if (glsl_stopped(w) || !count)
 		return;
+	if (!is_even(&p->value, stride, n))
+		align(w, p);
+	first = slice(w, &p->value, type, 0);
+	if (glsl_stopped(w))
+		return;
 	step = count > 1 ? p->value.at[stride] - p->value.at[0] : 0;
-	for (uint32_t i = 0; i < count; i++)
-		for (uint32_t k = 0; k < n; k++)
-			if (p->value.at[i * stride + k] != first.at[k] + i * step || step > 4096) {
-				glsl_fail(w, "a shader indexes a value whose elements are not evenly spaced");
-				return;
-			}
 	offset = glsl_one(w, SCENE_OP_MULTIPLY, index, glsl_number(w, (float)step), 0);
 	if (p->offset != GLSL_NONE)
 		offset = glsl_one(w, SCENE_OP_ADD, offset, p->offset, 0);

@@ -151,10 +151,21 @@ static struct glsl_value attribute(struct glsl_writer *w, const struct glsl_symb
 	return v;
 }
 
+/* The operand of a component in the fragment stage. */
+static uint32_t component(struct glsl_writer *w, uint32_t k)
+{
+	const struct program_constant *c = &w->links->fixed[k].constant;
+	const uint32_t part = w->links->fixed[k].part;
+
+	if (!part)
+		return 4 * SCENE_INPUT_TEXCOORD + k;
+	return c->source == PROGRAM_LITERAL ? glsl_number(w, c->value[part - 1]) :
+	       c->source == PROGRAM_LOCAL   ? SCENE_PROGRAM_CONSTANT + 4 * c->index + part - 1 :
+	                                      glsl_constant(w, c) + part - 1;
+}
+
 struct glsl_value glsl_linked(struct glsl_writer *w, const struct glsl_symbol *s)
 {
-	const uint32_t first = w->stage == GLSL_VERTEX_STAGE ? SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_TEXCOORD :
-	                                                       4 * SCENE_INPUT_TEXCOORD;
 	const uint32_t n = glsl_type_of(w, s->type)->numbers;
 
 	if (w->stage == GLSL_VERTEX_STAGE && s->storage == GLSL_INPUT)
@@ -170,7 +181,9 @@ struct glsl_value glsl_linked(struct glsl_writer *w, const struct glsl_symbol *s
 			struct glsl_value v = glsl_value_of(w, s->type, n);
 
 			for (uint32_t k = 0; k < n && v.at; k++)
-				v.at[k] = first + w->links->list[i].at[k];
+				v.at[k] = w->stage == GLSL_VERTEX_STAGE ?
+				                  SCENE_VERTEX_RESULTS + 4 * SCENE_RESULT_TEXCOORD + w->links->list[i].at[k] :
+				                  component(w, w->links->list[i].at[k]);
 			return v;
 		}
 	return glsl_fresh(w, s->type); /* the other stage does not write it */

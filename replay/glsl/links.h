@@ -1,6 +1,7 @@
 /* Interface of the stages: places of varyings and attributes. */
 #pragma once
 
+#include "replay/glsl/fixed.h"
 #include "replay/glsl/writer.h"
 
 #define GLSL_MAX_LINKS 32u
@@ -17,6 +18,7 @@ struct glsl_links {
 		uint32_t n, at[GLSL_LINK_NUMBERS];
 	} list[GLSL_MAX_LINKS];
 	uint32_t n, taken; /* bits: components in use */
+	struct glsl_fixed fixed[GLSL_LINK_NUMBERS]; /* by component */
 	uint32_t n_colors; /* number of colour outputs of the fragment stage, other than built-in ones */
 	const struct glsl_attribute *attributes;
 	uint32_t n_attributes;
@@ -37,5 +39,7 @@ void glsl_links_place(struct glsl_links *links, const struct glsl_tree *tree, co
  */
 void glsl_links_locate(struct glsl_writer *w, const uint8_t *used);
 
-/** The value of an attribute or varying. */
+/**
+ * The value of an attribute or varying. In the fragment stage, fixed components are constants.
+ */
 struct glsl_value glsl_linked(struct glsl_writer *w, const struct glsl_symbol *s);

@@ -173,6 +173,7 @@ static void finish(struct glsl_writer *w)
 	const int is_vertex = w->stage == GLSL_VERTEX_STAGE;
 
 	if (is_vertex) {
+		glsl_fix(w, w->links->fixed, GLSL_LINK_NUMBERS);
 		copy_front(w, "gl_BackColor", SCENE_RESULT_BACK_COLOR, SCENE_RESULT_COLOR);
 		copy_front(w, "gl_BackSecondaryColor", SCENE_RESULT_BACK_SECONDARY, SCENE_RESULT_SECONDARY);
 	}

@@ -36,6 +36,8 @@ PROGRAMS = {
     "outward": ("far out", "hardly any w", "without w", "corners of different w", "a ground to the horizon"),
     "resized": ("as it was opened", "larger, without a viewport", "scissored clears", "pixels", "views of parts",
                 "smaller", "another window", "that one smaller"),
+    "fixed": ("a uniform", "numbers", "by a function", "before a condition", "after one", "state", "an element",
+                "a column", "a component chosen", "a product", "under a condition"),
     "summed": ("colours", "numbers", "a product", "a large load", "sums that fit"),
     "srgb": ("shades", "blends", "pixels", "lit and textured", "through sRGB", "through a plain texture",
              "through floats", "a pushed switch"),
