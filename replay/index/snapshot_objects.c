@@ -244,8 +244,12 @@ static void *get_program(struct loader *l)
 		cursor_copy(&l->in, p->local, n_locals * sizeof(*p->local));
 	if (cursor_u64(&l->in)) {
 		text = loader_blob(l, &n);
-		if (!loader_is_bad(l) && gls_program_set(p, text ? (const char *)text : "", text ? n : 0) < 0)
-			l->err = ERR_SYSTEM;
+		if (!loader_is_bad(l)) {
+			const int refused = gls_program_set(p, text ? (const char *)text : "", text ? n : 0);
+
+			if (refused < 0 || (refused && gls_program_judged(p, 0) < 0))
+				l->err = ERR_SYSTEM;
+		}
 		free(text);
 	} else {
 		free(loader_blob(l, &n));

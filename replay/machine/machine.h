@@ -39,6 +39,13 @@ struct gls_counts {
 	int several_windows;                    /* 1: another frame ended in a different window */
 };
 
+/* The last glProgramStringARB, which queries after it tell more about (gl/state/arb_program.c). */
+struct gls_text_set {
+	uint64_t key;     /* the program, as gls_program_key names it */
+	uint64_t call;    /* its number; 0: there was none, or its program is gone */
+	uint32_t command; /* the call's command */
+};
+
 /* Vertices of gls_exec.st that are not drawn yet (gl/geometry/pending.h). */
 struct gls_pending {
 	struct gls_geometry geometry;
@@ -122,6 +129,7 @@ struct gls_exec {
 	struct gls_exec *assembler;   /* the machine that assembles lists (list_assemble.h); NULL: none yet */
 
 	struct gls_pending pending;
+	struct gls_text_set text_set;
 	struct gls_caches caches;
 	struct gls_scratch scratch;
 	struct gls_feedback feedback;

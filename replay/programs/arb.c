@@ -181,9 +181,9 @@ static void take_program(struct arb_parser *p)
 	const char *name;
 	size_t n;
 
+	arb_peek(w); /* Mesa skips blanks and comments there, too */
 	if ((size_t)(w->end - w->at) < strlen(header) || memcmp(w->at, header, strlen(header)) != 0) {
-		arb_fail(w, p->is_vertex ? "a vertex program does not begin with !!ARBvp1.0" :
-		                           "a fragment program does not begin with !!ARBfp1.0");
+		arb_fail(w, arb_bad_grammar);
 		return;
 	}
 	w->at += strlen(header);

@@ -17,6 +17,7 @@ void gls_program_free(struct gls_program *p)
 {
 	program_code_free(&p->code);
 	free(p->source);
+	free(p->other);
 	free(p->local);
 	free(p);
 }
@@ -43,36 +44,78 @@ static uint32_t locals_of(const struct program_code *code)
 	return n;
 }
 
+/* Translate a text. why: receives NULL, or why it cannot be run. @return 0 or ERR_SYSTEM (reported) */
+static int translate(const struct gls_program *p, const char *text, size_t n, struct program_code *code,
+                     const char **why)
+{
+	const int err = p->target == GL_FRAGMENT_SHADER_ATI ?
+	                        program_translate_ati((const struct ati_call *)(const void *)text, n, code, why) :
+	                        program_translate_arb(text, n, p->target == GL_VERTEX_PROGRAM_ARB, code, why);
+
+	if (err || *why)
+		program_code_free(code);
+	return err;
+}
+
+static void keep_other(struct gls_program *p, char *text, size_t n, int is_refused)
+{
+	free(p->other);
+	p->other = text;
+	p->other_bytes = n;
+	p->is_refused = is_refused;
+}
+
 int gls_program_set(struct gls_program *p, const char *text, size_t n)
 {
 	char *source = malloc(n + 1);
 	struct program_code code = { .n_instructions = 0 };
 	const char *why;
-	int err, refused;
+	int err;
 
 	if (!source)
 		return err_report(ERR_SYSTEM, NULL, "out of memory for a program of %zu bytes", n);
 	memcpy(source, text, n);
 	source[n] = 0;
-	err = p->target == GL_FRAGMENT_SHADER_ATI ?
-	              program_translate_ati((const struct ati_call *)(void *)source, n, &code, &why) :
-	              program_translate_arb(source, n, p->target == GL_VERTEX_PROGRAM_ARB, &code, &why);
+	err = translate(p, source, n, &code, &why);
 	if (!err)
 		err = gls_program_reserve(p, locals_of(&code));
-	refused = !err && (why == arb_bad_grammar || why == arb_too_much);
-	if (err || why)
-		program_code_free(&code);
-	if (refused && p->source && !p->why) {
-		free(source);
+	if (!err && (why == arb_bad_grammar || why == arb_too_much)) {
+		keep_other(p, source, n, 1);
 		return 1;
 	}
-	free(p->source);
+	keep_other(p, p->why ? NULL : p->source, p->source_bytes, 0);
+	if (p->source != p->other)
+		free(p->source);
 	p->source = source;
 	p->source_bytes = n;
 	program_code_free(&p->code);
 	p->code = code;
 	p->why = why;
-	return err ? err : refused;
+	return err;
+}
+
+int gls_program_judged(struct gls_program *p, int refuses)
+{
+	char *text = p->other;
+	int err = 0;
+
+	if (p->is_refused ? refuses : !refuses || !p->why)
+		return 0;
+	p->other = NULL;
+	free(p->source);
+	p->source = NULL;
+	program_code_free(&p->code);
+	p->why = NULL;
+	if (p->is_refused) {
+		p->source = text;
+		p->source_bytes = p->other_bytes;
+		p->why = "an ARB program that the GL accepted breaks the grammar that Relume knows";
+	} else if (text) {
+		err = gls_program_set(p, text, p->other_bytes);
+		free(text);
+	}
+	p->is_refused = 0;
+	return err < 0 ? err : 1;
 }
 
 struct gls_program *gls_program_bound(const struct gls_state *st, uint32_t target)

@@ -19,16 +19,30 @@ struct gls_program {
 	uint32_t n_locals;
 	struct program_code code; /* empty if `why` is set */
 	const char *why;          /* why the program cannot be run; a static string, NULL: it can */
+	/*
+	 * owned, or NULL: the text to use instead if the recording shows that the GL judged the last one otherwise. If that
+	 * was refused (is_refused 1), it is that text; otherwise the one before, to go back to
+	 */
+	char *other;
+	size_t other_bytes;
+	int is_refused;
 };
 
 void gls_program_free(struct gls_program *p);
 
 /**
  * Set the program's text, of n bytes, and translate it.
- * @return 0; 1: the text is invalid, which is a GL error; an earlier valid text is kept, as in Mesa (22.3.6); or
- *         ERR_SYSTEM (reported)
+ * @return 0; 1: the text is invalid, which is a GL error and changes nothing; or ERR_SYSTEM (reported)
  */
 int gls_program_set(struct gls_program *p, const char *text, size_t n);
+
+/**
+ * Take in how the GL of the recording judged the last text.
+ * @param refuses  1: as an error; 0: it accepted the text
+ * @return 1 if gls_program_set judged otherwise: the program then has no text that runs, or its former one; 0; or
+ *         ERR_SYSTEM (reported)
+ */
+int gls_program_judged(struct gls_program *p, int refuses);
 
 /** Make room for n parameters. @return 0, or ERR_SYSTEM (reported) */
 int gls_program_reserve(struct gls_program *p, uint32_t n);

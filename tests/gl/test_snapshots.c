@@ -214,7 +214,7 @@ START_TEST(formats_of_levels)
 }
 END_TEST
 
-/* A program whose only text was refused. */
+/* A program whose only text was refused has none; one whose text the GL accepted after all has a reason. */
 START_TEST(refused_programs)
 {
 	static const char text[] = "!!ARBvp1.0";
@@ -228,12 +228,20 @@ START_TEST(refused_programs)
 	gl_call(&gl, "glProgramStringARB", "eeus", GL_VERTEX_PROGRAM_ARB, GL_PROGRAM_FORMAT_ASCII_ARB,
 	        (unsigned)strlen(text), text);
 	ck_assert_uint_eq(gl_error(&gl), GL_INVALID_OPERATION);
+	gl_call(&gl, "glBindProgramARB", "eu", GL_FRAGMENT_PROGRAM_ARB, 6u);
+	gl_call(&gl, "glProgramStringARB", "eeus", GL_FRAGMENT_PROGRAM_ARB, GL_PROGRAM_FORMAT_ASCII_ARB,
+	        (unsigned)strlen(text), text);
+	gl_answered(&gl, GL_NO_ERROR, "glGetError", "");
 	ck_assert_int_eq(snapshot_save(gl.x, &in_memory, &saved), 0);
 	ck_assert_int_eq(gls_exec_create(&other.x, "other"), 0);
 	ck_assert_int_eq(snapshot_load(other.x, &in_memory, saved.data, saved.n), 0);
 	p = gls_program_bound(gl_state(&other), GL_VERTEX_PROGRAM_ARB);
+	ck_assert_ptr_nonnull(p);
+	ck_assert_ptr_null(p->source);
+	ck_assert_ptr_null(p->why);
+	p = gls_program_bound(gl_state(&other), GL_FRAGMENT_PROGRAM_ARB);
 	ck_assert_uint_eq(p->source_bytes, strlen(text));
-	ck_assert_str_eq(p->why, gls_program_bound(gl_state(&gl), GL_VERTEX_PROGRAM_ARB)->why);
+	ck_assert_str_eq(p->why, gls_program_bound(gl_state(&gl), GL_FRAGMENT_PROGRAM_ARB)->why);
 	gls_exec_destroy(&other.x);
 	drop(&store);
 	free(saved.data);

@@ -34,6 +34,8 @@ PROGRAMS = {
              "powers of programs", "known powers", "logarithms", "powers of shaders", "places between pixels",
              "an offset of EXT", "between faces of a cube", "filtered there", "a level there", "levels there"),
     "outward": ("far out", "hardly any w", "without w", "corners of different w", "a ground to the horizon"),
+    "refused": ("after another", "alone", "blanks before it", "for vertices", "an option", "state",
+                "an instruction", "another language"),
     "resized": ("as it was opened", "larger, without a viewport", "scissored clears", "pixels", "views of parts",
                 "smaller", "another window", "that one smaller"),
     "fixed": ("a uniform", "numbers", "by a function", "before a condition", "after one", "state", "an element",

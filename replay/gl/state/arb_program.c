@@ -57,6 +57,7 @@ GLS_HANDLER(glDeleteProgramsARB, OBJECT)
 			*binding_of(st, p->target) = 0;
 		table_remove(&st->share->programs, name);
 		gls_program_free(p);
+		x->text_set.call = x->text_set.key == name ? 0 : x->text_set.call;
 	}
 }
 
@@ -75,6 +76,49 @@ GLS_HANDLER(glProgramStringARB, OBJECT)
 	if (refused < 0)
 		gls_fail(x);
 	gls_refuses(x, st, refused > 0, GL_INVALID_OPERATION);
+	x->text_set = (struct gls_text_set){ gls_program_key(target, *binding_of(st, target)), c->number, x->command };
+}
+
+/*
+ * The recording shows how the GL judged the last text. That counts more than Relume's own judgement, which takes what
+ * it does not know (options, state, instructions) as valid.
+ */
+static void judge(struct gls_exec *x, struct gls_state *st, int refuses)
+{
+	struct gls_program *p = x->text_set.call ? table_find(&st->share->programs, x->text_set.key) : NULL;
+	const int other = p ? gls_program_judged(p, refuses) : 0;
+	const uint32_t command = x->command;
+
+	x->text_set.call = 0;
+	if (other < 0)
+		gls_fail(x);
+	if (other <= 0)
+		return;
+	st->dirty |= GLS_DIRTY_MATERIAL;
+	x->command = x->text_set.command;
+	if (refuses)
+		gls_error(x, st, GL_INVALID_OPERATION);
+	else
+		x->counts.errors[x->command]--;
+	x->command = command;
+}
+
+GLS_HANDLER(glGetIntegerv, CLIENT)
+{
+	uint64_t n;
+	const struct trace_value *values = arg_items(c, 1, &n);
+
+	if (arg_u(c, 0) == GL_PROGRAM_ERROR_POSITION_ARB && values && n)
+		judge(x, st, (int32_t)gls_value_int(&values[0]) >= 0);
+}
+
+/* Once the program has read the error, the next one is recorded again. */
+GLS_HANDLER(glGetError, NOW)
+{
+	if (c->number == x->text_set.call + 1 && c->ret.type != TRACE_NONE &&
+	    (c->ret.u == GL_NO_ERROR || c->ret.u == GL_INVALID_OPERATION))
+		judge(x, st, c->ret.u != GL_NO_ERROR);
+	st->error = 0;
 }
 
 /* The n parameters of a target that a call sets, from number `first` on. @return the first; NULL: none */

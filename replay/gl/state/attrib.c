@@ -210,9 +210,6 @@ GLS_HANDLER(glHint, STATE)
 	gls_error(x, st, GL_INVALID_ENUM);
 }
 
-/* Once the program has read the error, the next one is recorded again. */
-GLS_HANDLER(glGetError, NOW) { st->error = 0; }
-
 GLS_HANDLER(glRenderMode, OBJECT)
 {
 	uint32_t mode = arg_u(c, 0);
