@@ -194,7 +194,7 @@ size_t replay_gl_errors(struct replay *rp, const struct replay_count **out);
 struct replay_context {
 	uint64_t handle;        /* its address in the program */
 	uint32_t width, height; /* size of the drawable it last drew to */
-	const char *api;        /* "GLX", "EGL" */
+	const char *api;        /* "GLX", "EGL", "GLX, core profile" */
 	uint64_t calls;         /* executed in it */
 	int shares;             /* 1: shares its objects with another one */
 	uint32_t alpha_bits, depth_bits, stencil_bits, samples; /* per pixel of the drawable, as far as the trace says */

@@ -33,7 +33,7 @@ static void made_current(int ok, const struct drawable_target *target, void *con
 	record_rectangle(CMD_glViewport, GL_VIEWPORT);
 	record_rectangle(CMD_glScissor, GL_SCISSOR_BOX);
 	drawable_make_size_known();
-	if (context_has(HAS_CONVENTIONAL))
+	if (context_has(HAS_CONVENTIONAL) || context_has(HAS_DESKTOP))
 		marker_write_bits();
 	writer_note_context(context_has(HAS_DESKTOP) && !context_has(HAS_FIXED_FUNCTION));
 }

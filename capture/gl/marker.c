@@ -65,15 +65,47 @@ static void marker_write_gl(void)
 	marker_write(text);
 }
 
+/* Sizes and properties of the current drawable's buffers. */
+struct buffer_bits {
+	int alpha, depth, stencil, srgb, accum;
+};
+
+static struct buffer_bits conventional_bits(void)
+{
+	return (struct buffer_bits){ context_get(GL_ALPHA_BITS), context_get(GL_DEPTH_BITS), context_get(GL_STENCIL_BITS),
+		                     context_get(GL_FRAMEBUFFER_SRGB_CAPABLE_EXT),
+		                     context_has(HAS_DESKTOP) ? context_get(GL_ACCUM_RED_BITS) : 0 };
+}
+
+/* A parameter of one of the drawable's buffers; 0 if it lacks that buffer. */
+static int ask_buffer(unsigned buffer, unsigned pname)
+{
+	int value = 0;
+
+	real_glGetFramebufferAttachmentParameteriv(GL_FRAMEBUFFER, buffer, pname, &value);
+	return value;
+}
+
+/* The same in a core profile, which only answers for one buffer at a time (GL 3.2 sec. 6.1.13). */
+static struct buffer_bits core_bits(void)
+{
+	const unsigned color = context_get(GL_DOUBLEBUFFER) ? GL_BACK_LEFT : GL_FRONT_LEFT;
+
+	return (struct buffer_bits){ ask_buffer(color, GL_FRAMEBUFFER_ATTACHMENT_ALPHA_SIZE),
+		                     ask_buffer(GL_DEPTH, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE),
+		                     ask_buffer(GL_STENCIL, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE),
+		                     ask_buffer(color, GL_FRAMEBUFFER_ATTACHMENT_COLOR_ENCODING) == GL_SRGB, 0 };
+}
+
 void marker_write_bits(void)
 {
-	char text[64];
+	struct buffer_bits bits;
+	char text[96];
 
 	context_errors_before();
-	snprintf(text, sizeof(text), "relume:bits %d %d %d %d %d %d %d", context_get(GL_ALPHA_BITS),
-	         context_get(GL_DEPTH_BITS), context_get(GL_STENCIL_BITS), context_get(GL_FRAMEBUFFER_SRGB_CAPABLE_EXT),
-	         context_get(GL_SAMPLES), !context_has(HAS_DESKTOP) || context_get(GL_DOUBLEBUFFER) != 0,
-	         context_has(HAS_DESKTOP) ? context_get(GL_ACCUM_RED_BITS) : 0);
+	bits = context_has(HAS_CONVENTIONAL) ? conventional_bits() : core_bits();
+	snprintf(text, sizeof(text), "relume:bits %d %d %d %d %d %d %d", bits.alpha, bits.depth, bits.stencil, bits.srgb,
+	         context_get(GL_SAMPLES), !context_has(HAS_DESKTOP) || context_get(GL_DOUBLEBUFFER) != 0, bits.accum);
 	context_errors_after();
 	marker_write(text);
 	marker_write_gl();

@@ -73,9 +73,32 @@ static void swap(struct gls_exec *x, uint64_t drawable)
 	x->counts.window = x->counts.window ? x->counts.window : x->swapped;
 }
 
+/* Names of a context's attributes: major and minor version, profiles. */
+static const int64_t glx_names[3] = { 0x2091, 0x2092, 0x9126 }, egl_names[3] = { 0x3098, 0x30FB, 0x30FD };
+
+/*
+ * 1 if a call asks for the core profile, which OpenGL 3.2 and later have unless they are asked for the other one
+ * (GLX_ARB_create_context_profile; EGL 1.5 sec. 3.7.1.1).
+ */
+static int asks_for_core(const struct call *c, unsigned attributes, const int64_t names[3])
+{
+	int64_t values[3] = { 1, 0, 1 };
+	uint64_t n;
+	const struct trace_value *list = arg_items(c, attributes, &n);
+
+	for (uint64_t i = 0; i + 1 < n; i += 2)
+		for (unsigned k = 0; k < 3; k++)
+			if (gls_value_int(&list[i]) == names[k])
+				values[k] = gls_value_int(&list[i + 1]);
+	return (values[0] > 3 || (values[0] == 3 && values[1] >= 2)) && values[2] & 1;
+}
+
 GLS_HANDLER(glXCreateContext, WINDOW) { create_context(x, c, arg_i(c, 2), arg(c, 1), "GLX"); }
 GLS_HANDLER(glXCreateNewContext, WINDOW) { create_context(x, c, arg_i(c, 3), arg(c, 1), "GLX"); }
-GLS_HANDLER(glXCreateContextAttribsARB, WINDOW) { create_context(x, c, arg_i(c, 2), arg(c, 1), "GLX"); }
+GLS_HANDLER(glXCreateContextAttribsARB, WINDOW)
+{
+	create_context(x, c, arg_i(c, 2), arg(c, 1), asks_for_core(c, 4, glx_names) ? "GLX, core profile" : "GLX");
+}
 GLS_HANDLER(glXDestroyContext, WINDOW) { destroy_context(x, c, 1); }
 GLS_HANDLER(glXMakeCurrent, WINDOW) { make_current(x, c, 1, 1, 2, "GLX"); }
 GLS_HANDLER(glXMakeContextCurrent, WINDOW) { make_current(x, c, 1, 2, 3, "GLX"); }
@@ -104,7 +127,8 @@ static int is_es(const struct gls_exec *x, const struct call *c)
 GLS_HANDLER(eglBindAPI, WINDOW) { x->egl_api = arg_u(c, 0); }
 GLS_HANDLER(eglCreateContext, WINDOW)
 {
-	struct gls_context *ctx = create_context(x, c, arg_i(c, 2), arg(c, 1), "EGL");
+	const int core = x->egl_api && x->egl_api != EGL_OPENGL_ES_API && asks_for_core(c, 3, egl_names);
+	struct gls_context *ctx = create_context(x, c, arg_i(c, 2), arg(c, 1), core ? "EGL, core profile" : "EGL");
 
 	/*
 	 * Mesa (22.3.6) clamps OpenGL ES vertex colours only after interpolation, contrary to OpenGL ES 1.1 sec.

@@ -176,9 +176,10 @@ const char *snapshot_place(struct gls_exec *x, size_t at)
 /* The window system's name, as a static string, which contexts refer to. */
 static const char *get_api(struct loader *l)
 {
-	static const char *const names[] = { "GLX", "EGL", "WGL", "CGL", "OSMesa" };
+	static const char *const names[] = { "GLX", "GLX, core profile", "EGL", "EGL, core profile",
+		                              "WGL", "CGL", "OSMesa" };
 	uint64_t n = cursor_u64(&l->in);
-	const char *text = n < 16 ? cursor_get(&l->in, n + 1) : NULL;
+	const char *text = n < 32 ? cursor_get(&l->in, n + 1) : NULL;
 
 	for (size_t i = 0; text && text[n] == 0 && i < sizeof(names) / sizeof(names[0]); i++)
 		if (strcmp(names[i], text) == 0)

@@ -17,7 +17,7 @@ struct gls_mesh;
 
 struct gls_context {
 	uint64_t handle, share_handle; /* addresses in the program */
-	const char *api;               /* "GLX", "EGL" ... */
+	const char *api;               /* "GLX", "EGL", "GLX, core profile" ... */
 	uint64_t calls;                /* made while it was current */
 	int destroyed, shares;         /* 1: released as soon as nothing uses it; 1: another context shares its objects */
 	struct gls_state state;

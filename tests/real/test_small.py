@@ -15,6 +15,7 @@ PROGRAMS = {
     "asks": ("framebuffers", "shader objects", "texture objects of EXT", "one deleted"),
     "colors": tuple(f"seed {seed}" for seed in range(1, 13)),
     "condition": ("draws", "clears and pixels", "lists and arrays", "inverted"),
+    "core": ("linear", "encoded", "encoded and blended", "behind"),
     "copies": ("parts", "without alpha", "depths", "many of a large one"),
     "defines": ("without a version", "version 120"),
     "depthless": ("an object's picture", "over a quad", "one with depth"),
@@ -53,6 +54,7 @@ for name in sys.argv[1:] or PROGRAMS:
     trace, _ = check_same_pictures(f"small/{name}", PROGRAMS[name])
     done = must(relume("info", trace))
     check("not supported" not in done.stdout, f"{name}: nothing is left out: {done.stdout}")
+    check(("core profile" in done.stdout) == (name == "core"), f"{name}: the profile: {done.stdout}")
 
 if not sys.argv[1:]:
     trace = SCRATCH / "unended.trace"
