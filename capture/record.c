@@ -112,7 +112,8 @@ static const struct options_row rows[] = {
 	  press_take, AT(press) },
 	{ "frame-end", 0, "CALL",
 	  "also end a frame at: flush, finish, clear (of the color buffer), or readpixels after something was drawn (swap: "
-	  "nothing else; with OSMesa, flush and finish); such a frame shows the buffer drawn to, front or back",
+	  "nothing else; with OSMesa, flush and finish); such a frame shows the buffer drawn to, front or back; "
+	  "glXCopySubBufferMESA always ends one",
 	  options_text, AT(frame_end), .words = frame_ends },
 	{ "max-frames", 0, "N", "end the recording after N frames; the program keeps running", take_count, AT(max_frames) },
 	{ "max-size", 0, "BYTES",

@@ -239,6 +239,15 @@ void frame_may_end(enum frame_trigger trigger, int truth)
 	errno = saved;
 }
 
+void frame_copied(void)
+{
+	int saved = errno;
+
+	if (self.drawn && !self.in_primitive && context_current() && writer_active())
+		frame_end_current();
+	errno = saved;
+}
+
 /* Wishes */
 
 static uint64_t number_from(const char *name)

@@ -23,5 +23,10 @@ void frame_primitive_begins(void);
 void frame_primitive_ended(void);
 void frame_drawn(void);
 void frame_cleared(unsigned buffers);
+/**
+ * A part of the back buffer becomes visible. That shows a picture as a swap does, which ends a frame; further parts of
+ * the same picture do not.
+ */
+void frame_copied(void);
 /** Ends a frame if `record --frame-end` selects the call, `truth` holds, and something was drawn since the last one. */
 void frame_may_end(enum frame_trigger trigger, int truth);

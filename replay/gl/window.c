@@ -104,6 +104,20 @@ GLS_HANDLER(glXMakeCurrent, WINDOW) { make_current(x, c, 1, 1, 2, "GLX"); }
 GLS_HANDLER(glXMakeContextCurrent, WINDOW) { make_current(x, c, 1, 2, 3, "GLX"); }
 GLS_HANDLER(glXSwapBuffers, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
 GLS_HANDLER(glXSwapBuffersMscOML, WINDOW) { swap(x, (uint64_t)arg_i(c, 1)); }
+/*
+ * The back buffer stays as it is. Our recorder has ended a frame before the call if anything was drawn; in other
+ * recordings, pictures that a program shows this way belong to no frame.
+ */
+GLS_HANDLER(glXCopySubBufferMESA, WINDOW)
+{
+	const struct gls_drawable *d = x->st ? gls_drawable_of(x, x->st->drawable) : NULL;
+
+	gls_flush(x);
+	if (d && d->parted)
+		gls_unsupported(x, "it changes a front buffer that is used separately");
+	else if (d && d->surface.frame && gls_frame_events(&d->surface))
+		gls_unsupported(x, "it shows a picture that is no frame of the recording: record the program again");
+}
 GLS_HANDLER(glXCopyContext, WINDOW) { gls_unsupported(x, "the copy of state between contexts"); }
 
 enum { EGL_OPENGL_ES_API = 0x30A0, EGL_CONTEXT_CLIENT_VERSION = 0x3098 };

@@ -15,6 +15,7 @@ PROGRAMS = {
     "asks": ("framebuffers", "shader objects", "texture objects of EXT", "one deleted"),
     "colors": tuple(f"seed {seed}" for seed in range(1, 13)),
     "condition": ("draws", "clears and pixels", "lists and arrays", "inverted"),
+    "copied": ("swapped", "copied", "over it, in parts", "swapped again"),
     "core": ("linear", "encoded", "encoded and blended", "behind"),
     "copies": ("parts", "without alpha", "depths", "many of a large one"),
     "defines": ("without a version", "version 120"),
