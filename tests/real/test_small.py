@@ -48,6 +48,7 @@ PROGRAMS = {
     "ties": ("a current colour", "the vertices' colour", "in a list", "a list's current colour", "an array",
              "set after a few vertices", "set after many", "clipped triangles", "lit", "textured", "other colours",
              "flat", "a second colour", "w of 3", "points"),
+    "valleys": ("lit from the front",),
 }
 
 for name in sys.argv[1:] or PROGRAMS:
@@ -79,6 +80,13 @@ if not sys.argv[1:]:
     for name in "glBindTexture", "glTexImage3D", "glTexParameteri":
         check(f"{name}: texture targets of later GL" in said, f"features that Relume lacks: {name}: {said}")
     check("GL errors" not in said, f"the program is not blamed: {said}")
+    trace = SCRATCH / "valleys.trace"
+    for file in render(trace, SCRATCH / "valleys") if trace.exists() else ():
+        planes = Image(file, ["id", "shadow.G"]).planes
+        dark = sum(i > 0 and s < 0.99
+                   for ids, shadows in zip(planes["id"], planes["shadow.G"])
+                   for i, s in zip(ids, shadows))
+        check(not dark, f"places that the light sees like the viewer: {dark} pixels are in shadow")
     trace = SCRATCH / "outward.trace"
     files = render(trace, SCRATCH / "outward", "-f", "2-4")
     _, score = diff(trace, SCRATCH / "outward", "-f", "2-4")

@@ -121,8 +121,9 @@ static inline int shadow_lit_weights(const float *of_point, const float *cosine,
  * block grazing light, and the shadow border would follow the triangles' edges. Where the corners' normals bend
  * inwards, nothing is moved.
  *
- * The start is continuous from triangle to triangle, and so are shadows cast on them. to: the light, or the direction
- * to it.
+ * The start is continuous from triangle to triangle, and so are shadows cast on them. If pixels have several samples,
+ * their centres may be outside the triangle: a negative weight must not lower the start. to: the light, or the
+ * direction to it.
  */
 static inline struct vec3 shadow_curve_origin(const struct shadow_curve *c, const struct point_plane *plane,
                                               const float *of_point, struct vec3 to, int positional, struct vec3 from)
@@ -138,7 +139,7 @@ static inline struct vec3 shadow_curve_origin(const struct shadow_curve *c, cons
 	for (int i = 0; i < 3; i++) {
 		float below = M_MAX(v3_dot(v3_sub(plane->corner[i], at), c->normal[i]), 0.0f);
 
-		lift = v3_add(lift, v3_scale(c->normal[i], weight[i] * below));
+		lift = v3_add(lift, v3_scale(c->normal[i], M_MAX(weight[i], 0.0f) * below));
 		n = v3_add(n, v3_scale(c->normal[i], weight[i]));
 	}
 	return v3_add(point_ray_origin(weight, plane, n, from), lift);

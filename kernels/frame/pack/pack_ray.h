@@ -101,7 +101,7 @@ WIDE_VECTORS static inline struct vec3_16 pack_curve_origin(const struct pack_cu
 	for (int i = 0; i < 3; i++) {
 		const packf below = pack_max(v3_dot(v3_sub(s->corner[i], at), c->normal[i]), (packf)(0));
 
-		lift = v3_add(lift, v3_scale(c->normal[i], weight[i] * below));
+		lift = v3_add(lift, v3_scale(c->normal[i], pack_max(weight[i], (packf)(0)) * below));
 		n = v3_add(n, v3_scale(c->normal[i], weight[i]));
 	}
 	curved = v3_add(pack_ray_origin(weight, s, n, back), lift);
