@@ -202,7 +202,6 @@ static int trace_band(struct job *job)
 
 		err = hook_rays_stand_in(job, segment) ? hook_rays_run(job, segment, done) : segment_run(job, segment, done);
 	}
-	segment_draw_to(job, 0, 0);
 	if (!err && job->n_samples > 1)
 		err = segment_merge_samples(job);
 	if (err)

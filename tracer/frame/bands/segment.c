@@ -35,20 +35,25 @@ static uint32_t rectangle_area(struct camera_rectangle r)
 	return (uint32_t)(r.x1 - r.x0) * (uint32_t)(r.y1 - r.y0);
 }
 
-void segment_draw_to(struct job *job, uint32_t sample, uint32_t note)
+/* The sample that draws write to. bits: as the kernels take them, with its number (pixel_sample) */
+struct target {
+	union buffer_frame_pixel frame;
+	uint32_t bits;
+};
+
+static struct target target_of(const struct job *job, uint32_t sample, uint32_t note)
 {
-	job->frame = frame_sample(job, sample);
-	job->bits = (job->bits & 0xffffffu) | note;
+	return (struct target){ *frame_sample(job, sample), job->bits | note };
 }
 
-static int clear_sample(struct job *job, const struct scene_clear *clear)
+static int clear_sample(struct job *job, const struct scene_clear *clear, uint32_t sample)
 {
 	struct camera_rectangle r = segment_rectangle(job, clear->scissor);
 	uint32_t n = rectangle_area(r);
 
 	return launch_clear(job->tr->dev, n,
 	                    LAUNCH(clear, .clear = *clear, .rectangle = segment_in_buffers(job, r), .width = job->width,
-	                           .bits = job->bits, .n = n, .frame = *job->frame));
+	                           .bits = job->bits, .n = n, .frame = *frame_sample(job, sample)));
 }
 
 static int run_clear(struct job *job, const struct scene_clear *clear)
@@ -59,10 +64,8 @@ static int run_clear(struct job *job, const struct scene_clear *clear)
 		return 0;
 	if (clear->buffers & 1)
 		memcpy(job->background, clear->color, sizeof(job->background));
-	for (uint32_t i = 0; i < job->n_samples && !err; i++) {
-		segment_draw_to(job, i, 0);
-		err = clear_sample(job, clear);
-	}
+	for (uint32_t i = 0; i < job->n_samples && !err; i++)
+		err = clear_sample(job, clear, i);
 	return err;
 }
 
@@ -253,7 +256,7 @@ static int run_gather(struct job *job, struct camera_rectangle r, uint32_t slots
 	                            .first_pixel = frame_first_pixel(job), .n = n));
 }
 
-static int run_shade(struct job *job, uint32_t slots, uint32_t n)
+static int run_shade(struct job *job, uint32_t bits, uint32_t slots, uint32_t n)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -261,7 +264,7 @@ static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 	const uint32_t albedo = transport >= TRANSPORT_DIFFUSE || (job->image && compose_asks(job->options, "albedo"));
 	const struct shade_launch *a =
 		LAUNCH(shade, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
-		       .pixels = b->pixels, .width = job->width, .height = job->height, .bits = job->bits,
+		       .pixels = b->pixels, .width = job->width, .height = job->height, .bits = bits,
 		       .visibility = b->visibility, .n_slots = slots, .transport = transport, .albedo = albedo, .n = n,
 		       .programs = b->programs, .output = job->scene->output,
 		       .shaded = b->shaded);
@@ -274,7 +277,7 @@ static int run_shade(struct job *job, uint32_t slots, uint32_t n)
 	return in_packets ? launch_program_packet(tr->dev, packets, a) : launch_program(tr->dev, n, a);
 }
 
-static int run_resolve(struct job *job, struct camera_rectangle r)
+static int run_resolve(struct job *job, const struct target *to, struct camera_rectangle r)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -282,18 +285,18 @@ static int run_resolve(struct job *job, struct camera_rectangle r)
 	const uint32_t n = packets ? frame_columns(job->width) * (uint32_t)(r.y1 - r.y0) : rectangle_area(r);
 	const struct resolve_launch *a = LAUNCH(
 		resolve, .tables = frame_tables(tr), .fragments = b->fragments, .shaded = b->shaded, .first = b->first,
-		.counts = b->counts, .rectangle = segment_in_buffers(job, r), .width = job->width, .bits = job->bits,
-		.n = n, .cleared = b->cleared, .drawn = b->drawn, .frame = *job->frame);
+		.counts = b->counts, .rectangle = segment_in_buffers(job, r), .width = job->width, .bits = to->bits,
+		.n = n, .cleared = b->cleared, .drawn = b->drawn, .frame = to->frame);
 
 	return packets ? launch_resolve_packet(tr->dev, n, a) : launch_resolve(tr->dev, n, a);
 }
 
-/* Shade the fragments of the list: GL's colours, then the results of rays from them. */
-static int shade_list(struct job *job, uint32_t view, struct camera_rectangle r, uint32_t n)
+/* Shade the fragments of the list: GL's colours, then the results of rays from them. bits: of their target */
+static int shade_list(struct job *job, uint32_t bits, uint32_t view, struct camera_rectangle r, uint32_t n)
 {
 	const struct accel_space *space = secondary_space(job, view, 0);
 	enum tracer_mode mode = job->options->mode;
-	int err = run_shade(job, 0, n);
+	int err = run_shade(job, bits, 0, n);
 
 	if (err || !space || mode == TRACER_GL || mode == TRACER_NORMALS)
 		return err;
@@ -302,7 +305,7 @@ static int shade_list(struct job *job, uint32_t view, struct camera_rectangle r,
 	if (job->prepared.n_light_slots) {
 		err = secondary_shadows(job, space, n);
 		if (!err)
-			err = run_shade(job, job->prepared.n_light_slots, n);
+			err = run_shade(job, bits, job->prepared.n_light_slots, n);
 	}
 	if (!err && hooks_has(job, HOOK_ANY_HIT | HOOK_CLOSEST_HIT))
 		err = hooks_shade(job, space, secondary_transport(job->options), n);
@@ -323,8 +326,21 @@ int segment_reserve(struct job *job, uint32_t slots)
 	return err ? err : frame_reserve(tr, sparse, (size_t)slots * job->n_pixels);
 }
 
-/* Draw a segment to the current sample; without multisampling, to all samples. */
-static int run_draws(struct job *job, const struct segment *segment)
+/* Resolve the fragments of a segment without multisampling, which affect all samples alike. */
+static int resolve_all(struct job *job, struct camera_rectangle r)
+{
+	int err = 0;
+
+	for (uint32_t i = 0; i < job->n_samples && !err; i++) {
+		const struct target to = target_of(job, i, i ? PIXEL_FOLLOWS : 0);
+
+		err = run_resolve(job, &to, r);
+	}
+	return err;
+}
+
+/* Draw a segment to a sample; without multisampling, to all samples. */
+static int run_draws(struct job *job, const struct segment *segment, const struct target *to)
 {
 	struct tracer *tr = job->tr;
 	struct camera_rectangle r = segment_rectangle(job, job->prepared.views[segment->view].scissor);
@@ -347,12 +363,9 @@ static int run_draws(struct job *job, const struct segment *segment)
 			break;
 		err = run_gather(job, r, slots, n_list);
 		if (!err)
-			err = shade_list(job, segment->view, r, n_list);
-		for (uint32_t i = 0; i < (segment->multisample ? 1 : job->n_samples) && !err; i++) {
-			if (!segment->multisample)
-				segment_draw_to(job, i, i ? PIXEL_FOLLOWS : 0);
-			err = run_resolve(job, r);
-		}
+			err = shade_list(job, to->bits, segment->view, r, n_list);
+		if (!err)
+			err = segment->multisample ? run_resolve(job, to, r) : resolve_all(job, r);
 	}
 	return err;
 }
@@ -401,6 +414,7 @@ int segment_clear(struct job *job, const struct segment *segment, uint32_t n_cle
 int segment_run(struct job *job, const struct segment *segment, uint32_t n_cleared)
 {
 	const int32_t *scissor;
+	struct target to;
 	int err = segment_clear(job, segment, n_cleared);
 
 	if (err || segment->view == SCENE_NONE || segment->instance_count == 0)
@@ -408,14 +422,14 @@ int segment_run(struct job *job, const struct segment *segment, uint32_t n_clear
 	scissor = job->prepared.scene_views[segment->view].scissor;
 	if (rectangle_area(camera_rectangle(scissor[0], scissor[1], scissor[2], scissor[3], job->width, job->height)) == 0)
 		return 0;
-	segment_draw_to(job, 0, segment->multisample && job->pass ? (job->pass % SCENE_SAMPLES + 1) << 24 : 0);
+	to = target_of(job, 0, segment->multisample && job->pass ? (job->pass % SCENE_SAMPLES + 1) << 24 : 0);
 	if (!segment->multisample || job->n_samples == 1)
-		return run_draws(job, segment);
+		return run_draws(job, segment, &to);
 	for (uint32_t i = 0; i < job->n_samples && !err; i++) {
-		segment_draw_to(job, i, (i + 1) << 24);
+		to = target_of(job, i, (i + 1) << 24);
 		err = look_at_sample(job, segment, i);
 		if (!err)
-			err = run_draws(job, segment);
+			err = run_draws(job, segment, &to);
 	}
 	return err;
 }

@@ -1,13 +1,10 @@
 /*
  * Segments (tracer/frame/prepare/prepare.h): clears, camera rays, fragments gathered and shaded, per-fragment
- * operations. Draws write to the sample job->frame. Functions return 0 or ERR_SYSTEM (reported).
+ * operations. Functions return 0 or ERR_SYSTEM (reported).
  */
 #pragma once
 
 #include "tracer/frame/common/frame.h"
-
-/** Draw to one sample of the pixels from now on. @param note passed to the kernels (pixel_sample, PIXEL_FOLLOWS) */
-void segment_draw_to(struct job *job, uint32_t sample, uint32_t note);
 
 /** Pixels of the band inside a scissor rectangle; the same as positions in the buffers of pixels. */
 struct camera_rectangle segment_rectangle(const struct job *job, const int32_t scissor[4]);

@@ -98,9 +98,8 @@ struct job {
 	uint32_t width, height;
 	uint32_t row_first, n_rows; /* the band being drawn; buffers of pixels hold its pixels, bottom row first */
 	uint32_t n_pixels;          /* number of pixels in the band */
-	uint32_t bits; /* bits of the frame buffer and the sample being drawn: see pixel_depth_bits */
+	uint32_t bits;              /* bits of the frame buffer: see pixel_depth_bits */
 	uint32_t n_samples; /* samples of a pixel in this pass: 1 or SCENE_SAMPLES */
-	union buffer_frame_pixel *frame; /* buffer of the sample being drawn */
 	float background[4];
 	uint32_t pass, n_passes; /* current pass and number of passes: each traces one sample per pixel; pass 0 is the
 	                          * pixel centre and is traced last */
