@@ -8,10 +8,7 @@
 #include "kernels/camera/camera.h"
 #include "kernels/frame/light/sample.h"
 #include "scene/before.h"
-#include "tracer/frame/bands/hook_rays.h"
-#include "tracer/frame/bands/layered.h"
-#include "tracer/frame/bands/plain.h"
-#include "tracer/frame/bands/segment.h"
+#include "tracer/frame/bands/ways.h"
 #include "tracer/frame/hook/hook_objects.h"
 #include "tracer/frame/hook/hooks.h"
 #include "tracer/frame/light/emitters.h"
@@ -20,7 +17,6 @@
 #include "tracer/frame/picture/compose.h"
 #include "tracer/frame/picture/ended.h"
 #include "tracer/frame/picture/noise.h"
-#include "tracer/frame/picture/picture.h"
 #include "tracer/frame/place/geometry.h"
 #include "tracer/frame/place/upload.h"
 #include "tracer/frame/prepare/expand.h"
@@ -117,29 +113,6 @@ int tracer_check_aov(const char *aov)
 
 /* --- Frames ------------------------------------------------------------------------------------------------------ */
 
-/* Make room for the band's pixels. */
-static int reserve_pixels(struct job *job)
-{
-	struct tracer *tr = job->tr;
-	int err = frame_reserve_counts(job);
-
-	if (!err)
-		err = frame_reserve(tr, counts, job->n_pixels);
-	if (!err)
-		err = frame_reserve(tr, frame, job->n_pixels);
-	if (!err)
-		err = frame_reserve(tr, cleared, 1);
-	if (!err)
-		err = frame_reserve(tr, drawn, frame_columns(job->width) * job->n_rows);
-	for (uint32_t i = 0; i < job->n_samples && !err; i++)
-		err = launch_reserve(tr->dev, *frame_sample(job, i), job->n_pixels);
-	if (!err && job->n_passes > 1)
-		err = frame_reserve(tr, sums, (size_t)job->width * job->height * PASS_PARTS);
-	if (!err)
-		err = frame_reserve(tr, visibility, 3);
-	return err;
-}
-
 static void count_undrawn(struct job *job)
 {
 	const struct scene *scene = job->scene;
@@ -148,89 +121,20 @@ static void count_undrawn(struct job *job)
 		job->tr->undrawn.targets += scene->views[scene->instances[i].view].target != 0;
 }
 
-/*
- * Number of rows in a band: whole tiles, and on a CPU few enough that the data of their pixels stays in its caches; a
- * column may have eight fragments. GPUs need many pixels at once.
- */
-#define BAND_PIXELS_CPU 65536u
-#define BAND_PIXELS_COLUMNS 16384u
-#define BAND_PIXELS_GPU 2097152u
-
-static uint32_t rows_of_band(const struct job *job)
-{
-	const uint32_t pixels = layered_has_columns(job) ? BAND_PIXELS_COLUMNS :
-	                        frame_in_packets(job) || job->objects.n ? BAND_PIXELS_CPU : BAND_PIXELS_GPU;
-	uint32_t rows = job->options->band_rows ? job->options->band_rows : pixels / job->width;
-
-	if (job->tr->most_rows && rows > job->tr->most_rows)
-		rows = job->tr->most_rows;
-	if (rows > layered_most_pixels() / job->width)
-		rows = layered_most_pixels() / job->width;
-	return rows < CAMERA_TILE ? CAMERA_TILE : rows / CAMERA_TILE * CAMERA_TILE;
-}
-
-/* Set pixels to their values before they are drawn. n_cleared: receives the number of the first segment's clears that
- * this includes */
-static int begin_band(struct job *job, uint32_t *n_cleared)
-{
-	int err;
-
-	*n_cleared = 0;
-	memset(job->background, 0, sizeof(job->background));
-	if (!job->scene->start && !job->scene->needs_previous)
-		return segment_clear_all(job, n_cleared);
-	err = segment_say_drawn(job, 1);
-	return err ? err : picture_upload_start(job);
-}
-
-/* Draw a band and pass on its pixels. @return 0, ERR_MEMORY or ERR_SYSTEM (reported) */
-static int trace_band(struct job *job)
-{
-	uint32_t n_cleared;
-	int err;
-
-	if (plain_suits(job))
-		return plain_band(job);
-	if (layered_suits(job))
-		return layered_band(job);
-	err = reserve_pixels(job);
-	if (!err)
-		err = begin_band(job, &n_cleared);
-	for (uint32_t i = 0; i < job->prepared.n_segments && !err; i++) {
-		const struct segment *segment = &job->prepared.segments[i];
-		const uint32_t done = i == 0 ? n_cleared : 0;
-
-		err = hook_rays_stand_in(job, segment) ? hook_rays_run(job, segment, done) : segment_run(job, segment, done);
-	}
-	if (!err && job->n_samples > 1)
-		err = segment_merge_samples(job);
-	if (err)
-		return err;
-	if (job->pass > 0) {
-		/* A partly added pass cannot be added again. */
-		err = segment_add_pass(job, job->is_first);
-		return err == ERR_MEMORY ? device_report_lack(job->tr->dev) : err;
-	}
-	if (!job->scene->start && job->scene->needs_previous)
-		err = picture_count_band(job);
-	if (err)
-		return err;
-	return job->image ? compose_band(job, job->image) : picture_read_band(job, job->picture);
-}
-
 /* Draw all bands. If the device has too little memory for a band, halve the rows of bands from then on. */
 static int trace_bands(struct job *job)
 {
+	const struct way *way = way_of(job);
 	uint32_t end = job->height;
 	int err = 0;
 
 	while (end > 0 && !err) {
-		const uint32_t rows = rows_of_band(job);
+		const uint32_t rows = way_rows(way, job);
 
 		job->row_first = (end - 1) / rows * rows;
 		job->n_rows = end - job->row_first;
 		job->n_pixels = job->n_rows * job->width;
-		err = trace_band(job);
+		err = way->draw(job);
 		if (!err) {
 			end = job->row_first;
 		} else if (err == ERR_MEMORY && job->n_rows > CAMERA_TILE) {

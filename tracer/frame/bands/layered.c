@@ -123,18 +123,19 @@ int layered_suits(const struct job *job)
 	return 1;
 }
 
-uint32_t layered_most_pixels(void)
-{
-	return 0xffffffffu / (PLAIN_LOOKS * CAMERA_COLUMN_MAX);
-}
-
-int layered_has_columns(const struct job *job)
+/* 1 if a pixel may have many fragments. */
+static int has_columns(const struct job *job)
 {
 	int columns = 0;
 
 	for (uint32_t i = 0; i < job->prepared.n_segments; i++)
 		columns |= job->prepared.segments[i].mode == CAMERA_COLUMN;
-	return columns && layered_suits(job);
+	return columns;
+}
+
+uint32_t layered_pixels(const struct job *job)
+{
+	return has_columns(job) ? 16384u : 65536u;
 }
 
 /* --- Looks ------------------------------------------------------------------------------------------------------- */
@@ -157,7 +158,7 @@ static int reserve_looks(struct job *job, struct looks *looks)
 	size_t n;
 	int err;
 
-	looks->most = layered_has_columns(job);
+	looks->most = has_columns(job);
 	for (uint32_t i = 0; i < job->prepared.n_segments; i++)
 		looks->most += job->prepared.segments[i].view != SCENE_NONE;
 	looks->most = looks->most < PLAIN_LOOKS ? looks->most : PLAIN_LOOKS;

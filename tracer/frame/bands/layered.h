@@ -11,11 +11,8 @@
 /** 1 if this pass of the frame can be drawn in this way. Needs job->prepared. */
 int layered_suits(const struct job *job);
 
-/** 1 if it can, and a pixel may have many fragments. */
-int layered_has_columns(const struct job *job);
-
-/** Most pixels in a band. */
-uint32_t layered_most_pixels(void);
+/** Pixels in a band whose data stays in the caches: a column may have eight fragments. */
+uint32_t layered_pixels(const struct job *job);
 
 /** Draw the band into job->image or job->picture. @return 0 or ERR_SYSTEM (reported) */
 int layered_band(struct job *job);

@@ -1,0 +1,18 @@
+/* The ways to draw a band: one table. */
+#pragma once
+
+#include "tracer/frame/common/frame.h"
+
+struct way {
+	int (*suits)(const struct job *job); /* 1 if it can draw this pass of the frame; needs job->prepared */
+	/* Draws the band into job->image or job->picture, or adds it to the sums. @return 0, ERR_MEMORY or ERR_SYSTEM
+	 * (reported) */
+	int (*draw)(struct job *job);
+	uint32_t (*pixels)(const struct job *job); /* pixels in a band, unless options or memory say otherwise */
+};
+
+/** The quickest way that suits this pass of the frame. */
+const struct way *way_of(const struct job *job);
+
+/** Number of rows in a band, in whole tiles. */
+uint32_t way_rows(const struct way *way, const struct job *job);
