@@ -20,6 +20,7 @@ struct looks {
 	uint32_t n, most; /* most: looks that there is room for */
 	uint32_t layers;  /* layers of the block with the most */
 	uint32_t columns, asking;
+	union buffer_float *before, *after; /* pixels passed from round to round; exchanged at the end of each */
 	const struct accel_space *space, *sky; /* space: for rays to lights; sky: for rays that hit nothing */
 	uint32_t next; /* segment to look at next: the same one if goes_on, from the positions in tracer.counts */
 	int goes_on;
@@ -317,7 +318,7 @@ static int reserve_places(struct job *job, uint32_t n, uint32_t n_slots)
 	    (err = frame_reserve(tr, pixels, 1)) || (err = frame_reserve(tr, shaded, 1)) ||
 	    (err = frame_reserve(tr, dome_places, 1)))
 		return err;
-	return secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1);
+	return secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1, &tr->buffers.layer_visibility);
 }
 
 /* round: PLAIN_BEGINS and similar flags */
@@ -326,14 +327,14 @@ static struct plain_launch launch_of(const struct job *job, const struct looks *
 {
 	static const struct camera_rectangle nowhere;
 	const struct frame_buffers *b = &job->tr->buffers;
-	struct plain_launch a = plain_launch_of(job, nowhere, n, n_slots, request);
+	struct plain_launch a = plain_launch_of(job, nowhere, n, n_slots, b->layer_visibility, request);
 
 	a.fragments = b->alone_fragments;
 	a.pixels = b->alone_pixels;
 	a.shaded = b->alone_shaded;
 	a.layers = *LAUNCH(layers, .counts = b->counts, .n_looks = looks->n, .columns = looks->columns,
 	                   .asking = looks->asking, .round = round, .clears = b->layer_clears,
-	                   .n_clears = looks->n_clears, .before = b->kept_pixels, .after = b->next_pixels,
+	                   .n_clears = looks->n_clears, .before = *looks->before, .after = *looks->after,
 	                   .unknown = b->unknown, .mirrors = looks->space && plain_has_mirrors(job),
 	                   .leaving = b->leaving, .list_first = b->leaving_first, .list = b->fragments,
 	                   .list_pixels = b->pixels, .list_shaded = b->shaded);
@@ -371,21 +372,14 @@ static int place_leaving(struct job *job, uint32_t n, uint32_t *n_list)
 	return err || !*n_list ? err : frame_reserve(tr, shaded, *n_list);
 }
 
-/* Follow paths from the list, then make all planes if there are any. The visibility of lights is saved, as rays of
- * paths overwrite it. */
+/* Follow paths from the list, then make all planes if there are any. */
 static int follow(struct job *job, const struct looks *looks, struct plain_launch a, uint32_t n_list)
 {
-	struct frame_buffers *b = &job->tr->buffers;
-	const union buffer_float visibility = b->visibility;
-	int err;
+	int err = secondary_paths(job, looks->space, looks->sky, n_list);
 
-	b->visibility = b->kept_visibility;
-	b->kept_visibility = visibility;
-	err = secondary_paths(job, looks->space, looks->sky, n_list);
 	if (err)
 		return err;
 	a = launch_of(job, looks, a.layers.round, a.n, a.n_slots, &a.request);
-	a.visibility = visibility;
 	return launch_layered_mirror(job->tr->dev, plain_blocks(job->width, job->n_rows), &a);
 }
 
@@ -406,7 +400,7 @@ static int draw(struct job *job, const struct looks *looks, uint32_t round, uint
 	a = launch_of(job, looks, round, n, n_slots, request);
 	err = launch_layered(job->tr->dev, blocks, &a);
 	if (!err && n_slots)
-		err = secondary_ask(job, looks->space, 1, a.rays, n * n_slots);
+		err = plain_trace_rays(job, looks->space, &a);
 	if (!err && n && a.layers.mirrors)
 		err = place_leaving(job, n, &n_list);
 	if (err || !(n_slots || n_list))
@@ -420,16 +414,16 @@ static int draw(struct job *job, const struct looks *looks, uint32_t round, uint
 }
 
 /* Make room for the state passed from one round to the next, if there are several. */
-static int reserve_kept(struct job *job, int is_only)
+static int reserve_kept(struct job *job, const struct looks *looks, int is_only)
 {
 	const size_t n = is_only ? 1 : (size_t)plain_columns(job->width) * PLAIN_WIDTH * job->n_rows * PLAIN_KEPT;
-	int err = frame_reserve(job->tr, kept_pixels, n);
+	int err = launch_reserve(job->tr->dev, *looks->before, n);
 
-	return err ? err : frame_reserve(job->tr, next_pixels, n);
+	return err ? err : launch_reserve(job->tr->dev, *looks->after, n);
 }
 
 /* Use the picture that the frame starts from as the state of an earlier round. */
-static int keep_start(struct job *job)
+static int keep_start(struct job *job, const struct looks *looks)
 {
 	const struct scene_picture *start = job->scene->start;
 	const struct frame_buffers *b = &job->tr->buffers;
@@ -444,7 +438,7 @@ static int keep_start(struct job *job)
 	             launch_layered_start(job->tr->dev, (size_t)plain_columns(job->width) * job->n_rows,
 	                                  LAUNCH(layered_start, .colors = b->colors, .depths = b->depths,
 	                                         .width = job->width, .height = job->n_rows, .bits = job->bits,
-	                                         .kept = b->kept_pixels));
+	                                         .kept = *looks->before));
 }
 
 /* Flags of a round, except PLAIN_ENDS. */
@@ -460,8 +454,7 @@ static uint32_t round_of(const struct job *job, int is_first)
 static int draw_round(struct job *job, struct looks *looks, int is_first, int *is_last,
                       const struct compose_request *request)
 {
-	struct frame_buffers *b = &job->tr->buffers;
-	union buffer_float kept;
+	union buffer_float *const before = looks->before;
 	uint32_t n, round = round_of(job, is_first);
 	int err = look_around(job, looks);
 
@@ -472,14 +465,13 @@ static int draw_round(struct job *job, struct looks *looks, int is_first, int *i
 	n = place_blocks(job);
 	err = frame_upload(job->tr, blocks, job->tr->first, plain_blocks(job->width, job->n_rows));
 	if (!err)
-		err = reserve_kept(job, is_first && *is_last && job->image && !job->scene->start);
+		err = reserve_kept(job, looks, is_first && *is_last && job->image && !job->scene->start);
 	if (!err && is_first && job->scene->start)
-		err = keep_start(job);
+		err = keep_start(job, looks);
 	if (!err)
 		err = draw(job, looks, round, n, request);
-	kept = b->next_pixels;
-	b->next_pixels = b->kept_pixels;
-	b->kept_pixels = kept;
+	looks->before = looks->after;
+	looks->after = before;
 	return err;
 }
 
@@ -509,14 +501,16 @@ static int draw_band(struct job *job, struct looks *looks)
 	if (err)
 		return err;
 	if (!job->image)
-		return picture_take_band(job, clear.stencil);
+		return picture_take_band(job, *looks->before, clear.stencil);
 	err = compose_fetch(job, &request, job->image);
 	return err || !is_unknown(job) ? err : picture_count_rows(job);
 }
 
 int layered_band(struct job *job)
 {
-	struct looks looks = { .clears = calloc(job->scene->n_clears + (size_t)1, sizeof(*looks.clears)) };
+	struct frame_buffers *b = &job->tr->buffers;
+	struct looks looks = { .before = &b->kept_pixels, .after = &b->next_pixels,
+		               .clears = calloc(job->scene->n_clears + (size_t)1, sizeof(*looks.clears)) };
 	int err = looks.clears ? draw_band(job, &looks) :
 	                         err_report(ERR_SYSTEM, NULL, "out of memory for %u clears", job->scene->n_clears);
 

@@ -113,7 +113,7 @@ static int reserve(struct job *job, uint32_t n, uint32_t n_slots)
 		err = frame_reserve(tr, dome_places, 1);
 	if (!err)
 		err = frame_reserve(tr, layer_clears, 1);
-	return err ? err : secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1);
+	return err ? err : secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1, &tr->buffers.visibility);
 }
 
 struct compose_request plain_shadow_request(struct compose_request r)
@@ -125,25 +125,30 @@ struct compose_request plain_shadow_request(struct compose_request r)
 	return r;
 }
 
+int plain_trace_rays(struct job *job, const struct accel_space *space, const struct plain_launch *a)
+{
+	return secondary_ask(job, space, &(const struct light_rays){ a->rays, a->visibility, a->n * a->n_slots, 1 });
+}
+
 struct plain_launch plain_launch_of(const struct job *job, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
-                                    const struct compose_request *request)
+                                    union buffer_float visibility, const struct compose_request *request)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 	const struct scene_dome none = { .reach = 0 };
 	const struct layers_launch *one = LAUNCH(
 		layers, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .round = 0,
-		.clears = b->layer_clears, .n_clears = 0, .before = b->visibility, .after = b->visibility,
+		.clears = b->layer_clears, .n_clears = 0, .before = visibility, .after = visibility,
 		.unknown = b->counts, .mirrors = 0, .leaving = b->counts, .list_first = b->counts, .list = b->fragments,
 		.list_pixels = b->pixels, .list_shaded = b->shaded);
 
 	return *LAUNCH(plain, .tables = frame_tables(job->tr), .views = b->views, .windows = b->windows, .sparse = b->sparse,
 	               .rectangle = segment_in_buffers(job, r), .width = job->width, .height = job->height,
 	               .first_pixel = frame_first_pixel(job), .bits = job->bits, .cleared = b->cleared, .request = *request,
-	               .visibility = b->visibility, .n_slots = n_slots, .blocks = b->blocks, .n = n,
+	               .visibility = visibility, .n_slots = n_slots, .blocks = b->blocks, .n = n,
 	               .fragments = b->fragments, .pixels = b->pixels, .shaded = b->shaded, .rays = b->rays,
-	               .programs = b->programs, .dome = none, .directions = b->visibility, .samples = 0,
+	               .programs = b->programs, .dome = none, .directions = visibility, .samples = 0,
 	               .places = b->dome_places, .looks = b->rays,
-	               .factors = b->visibility, .layers = *one, .halves = b->halves, .floats = b->floats);
+	               .factors = visibility, .layers = *one, .halves = b->halves, .floats = b->floats);
 }
 
 /* The same launch with dome light from `samples` directions. */
@@ -202,7 +207,7 @@ static int draw_lit(struct job *job, const struct accel_space *space, struct pla
 	if (!err)
 		err = run_plain(job, &a, blocks);
 	if (!err && n_slots)
-		err = secondary_ask(job, space, 1, a.rays, a.n * n_slots);
+		err = plain_trace_rays(job, space, &a);
 	if (!err && n_slots)
 		err = run_programs(job, a, blocks, n_slots);
 	if (err || !n_slots)
@@ -219,7 +224,7 @@ static int draw_in_dome(struct job *job, const struct accel_space *space, struct
 	if (!err)
 		err = dome_light_plain(job, space, &a);
 	if (!err && a.n_slots)
-		err = secondary_ask(job, space, 1, a.rays, a.n * a.n_slots);
+		err = plain_trace_rays(job, space, &a);
 	return err ? err : launch_plain_shadow(job->tr->dev, blocks, &a);
 }
 
@@ -270,7 +275,7 @@ static int draw_in_steps(struct job *job, const struct accel_space *space, struc
 		err = dome_prepare_plain(job, n, &samples);
 	if (err)
 		return err;
-	a = plain_launch_of(job, r, n, n_slots, request);
+	a = plain_launch_of(job, r, n, n_slots, job->tr->buffers.visibility, request);
 	return samples ? draw_in_dome(job, space, in_dome(job, a, samples), blocks) : draw_lit(job, space, a, blocks);
 }
 

@@ -20,9 +20,12 @@ int plain_is_simple(const struct job *job);
 /** 1 if there are surfaces that reflect or transmit light. */
 int plain_has_mirrors(const struct job *job);
 
-/** Arguments of both ways, without dome light. r: rectangle of the band */
+/** Arguments of both ways, without dome light. r: rectangle of the band; visibility: receives that of lights */
 struct plain_launch plain_launch_of(const struct job *job, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
-                                    const struct compose_request *request);
+                                    union buffer_float visibility, const struct compose_request *request);
+
+/** Trace the rays to lights that the kernels of such a launch made. */
+int plain_trace_rays(struct job *job, const struct accel_space *space, const struct plain_launch *a);
 
 /** Restrict a request to the planes that shadows change. */
 struct compose_request plain_shadow_request(struct compose_request r);

@@ -39,7 +39,7 @@
 	X(frame_pixel, cleared) X(uint, drawn) X(dome_place, dome_places) X(float, dome_sums) X(float, dome_directions) \
 	X(ray, dome_rays) X(float, dome_factors) X(uint, blocks) \
 	X(fragment, alone_fragments) X(uint, alone_pixels) X(shaded, alone_shaded) X(uint, leaving) \
-	X(uint, leaving_first) X(float, kept_visibility) X(float, kept_pixels) X(float, next_pixels) \
+	X(uint, leaving_first) X(float, layer_visibility) X(float, kept_pixels) X(float, next_pixels) \
 	X(layer_clear, layer_clears) X(uint, colors) X(uint, depths) X(uint, unknown) X(half, halves) X(float, floats) \
 	X(hook_answer, answers)
 

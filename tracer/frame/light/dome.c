@@ -53,7 +53,8 @@ static int look_around(struct job *job, const struct accel_space *space, union b
                        uint32_t samples, uint32_t n)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
-	int err = secondary_ask(job, space, 0, rays, samples * n);
+	const struct light_rays asked = { rays, b->visibility, samples * n, 0 };
+	int err = secondary_ask(job, space, &asked);
 
 	return err ? err :
 	             launch_dome_sum(job->tr->dev, n,
@@ -102,7 +103,7 @@ static int reserve(struct job *job, uint32_t n)
 int dome_light_list(struct job *job, const struct accel_space *space, struct camera_rectangle rectangle, uint32_t n)
 {
 	const uint32_t rays = rays_of(job), most = rays < RAYS_AT_ONCE ? rays : RAYS_AT_ONCE;
-	int err = secondary_reserve_rays(job, (size_t)most * n);
+	int err = secondary_reserve_rays(job, (size_t)most * n, &job->tr->buffers.visibility);
 
 	if (!err)
 		err = reserve(job, n);
@@ -126,7 +127,7 @@ int dome_prepare_plain(struct job *job, uint32_t n, uint32_t *samples)
 	if (!err)
 		err = frame_reserve(job->tr, dome_factors, 3 * (size_t)n);
 	if (!err)
-		err = secondary_reserve_rays(job, (size_t)*samples * n);
+		err = secondary_reserve_rays(job, (size_t)*samples * n, &job->tr->buffers.visibility);
 	return err ? err : upload_directions(job, 0, *samples);
 }
 

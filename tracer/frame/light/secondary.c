@@ -43,11 +43,12 @@ static uint32_t packs(uint32_t n)
 	return (n + SHADE_PACKET - 1) / SHADE_PACKET;
 }
 
-/* Find which of n rays are stopped in a space: 1, or 2 if surfaces have to be sampled (kernels/rays/opacity.h). */
-static int occlude(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
-                   union buffer_uint occluded, uint32_t n)
+/* Find which rays are stopped in a space: 1, or 2 if surfaces have to be sampled (kernels/rays/opacity.h). */
+static int occlude(struct job *job, const struct accel_space *space, const struct light_rays *rays,
+                   union buffer_uint occluded)
 {
-	const struct traverse_rays r = { .space = space, .n = n, .to_lights = to_lights, .rays = rays, .occluded = occluded };
+	const struct traverse_rays r = { .space = space, .n = rays->n, .to_lights = rays->to_lights, .rays = rays->rays,
+		                         .occluded = occluded };
 	struct device *dev = job->tr->dev;
 	int err = space->n_nodes ? traverse_rays(dev, traverse_families[device_family(dev)].occlude, &job->tr->trees, &r) : 0;
 
@@ -55,19 +56,15 @@ static int occlude(struct job *job, const struct accel_space *space, uint32_t to
 }
 
 /* Find the nearest hits of rays. whose: kind of rays */
-static int intersect(struct job *job, const struct accel_space *space, enum hook_rays_of whose, uint32_t to_lights,
-                     union buffer_ray rays, union buffer_hit hits, uint32_t n)
+static int intersect(struct job *job, enum hook_rays_of whose, struct traverse_rays r)
 {
-	const struct traverse_rays r = { .space = space, .n = n, .to_lights = to_lights,
-		                         .passing = whose == HOOK_RAYS_TO_LIGHTS && opacity_is_known(job, space) &&
-		                                    !hooks_has(job, HOOK_ANY_HIT),
-		                         .rays = rays, .hits = hits };
 	struct device *dev = job->tr->dev;
-	int err = space->n_nodes ?
-	                  traverse_rays(dev, traverse_families[device_family(dev)].intersect, &job->tr->trees, &r) :
-	                  0;
+	int err = 0;
 
-	return err || !hook_objects_in(job, space) ? err : hook_objects_intersect(job, &r, whose);
+	r.passing = whose == HOOK_RAYS_TO_LIGHTS && opacity_is_known(job, r.space) && !hooks_has(job, HOOK_ANY_HIT);
+	if (r.space->n_nodes)
+		err = traverse_rays(dev, traverse_families[device_family(dev)].intersect, &job->tr->trees, &r);
+	return err || !hook_objects_in(job, r.space) ? err : hook_objects_intersect(job, &r, whose);
 }
 
 /* --- Lists ------------------------------------------------------------------------------------------------------- */
@@ -161,23 +158,25 @@ static int start_walk(struct job *job, const struct list *list, union buffer_ray
 	                                  .shadow_paths = *list->paths));
 }
 
-/* Continue those of n_rays rays that shadow_sum left as stopped, through transmitting surfaces one after another. */
-static int walk_layers(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
-                       uint32_t n_rays, float weight)
+/* Continue those of the rays that shadow_sum left as stopped, through transmitting surfaces one after another. */
+static int walk_layers(struct job *job, const struct accel_space *space, const struct light_rays *to, float weight)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	const struct list list = shadow_list(job);
 	uint32_t n;
-	int err = start_walk(job, &list, rays, n_rays, weight, &n);
+	int err = start_walk(job, &list, to->rays, to->n, weight, &n);
 
 	for (uint32_t i = 0; i < MOST_LAYERS && n && !err; i++) {
-		err = intersect(job, space, HOOK_RAYS_TO_LIGHTS, to_lights, *list.rays, b->shadow_hits, n);
+		err = intersect(job, HOOK_RAYS_TO_LIGHTS,
+		                (struct traverse_rays){ .space = space, .n = n, .to_lights = to->to_lights,
+		                                        .rays = *list.rays, .hits = b->shadow_hits });
 		if (!err)
 			err = launch_shadow_walk(tr->dev, n,
 			                         LAUNCH(shadow_walk, .tables = frame_tables(tr), .hits = b->shadow_hits,
-			                                .rays = *list.rays, .paths = *list.paths, .to_lights = to_lights,
-			                                .least = weight * OPACITY_LEAST, .n = n, .visibility = b->visibility,
+			                                .rays = *list.rays, .paths = *list.paths,
+			                                .to_lights = to->to_lights, .least = weight * OPACITY_LEAST,
+			                                .n = n, .visibility = to->visibility,
 			                                .next_rays = *list.next_rays, .next_paths = *list.next_paths,
 			                                .counts = b->next_counts));
 		if (!err && hooks_has(job, HOOK_ANY_HIT))
@@ -188,26 +187,25 @@ static int walk_layers(struct job *job, const struct accel_space *space, uint32_
 	return err;
 }
 
-/* Trace one of `samples` rounds of n_rays rays, already made, into buffers.visibility. to_lights: 0 for rays into the
- * surroundings */
-static int ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
-               uint32_t n_rays, uint32_t sample, uint32_t samples)
+/* Trace one of `samples` rounds of rays. */
+static int ask(struct job *job, const struct accel_space *space, const struct light_rays *r, uint32_t sample,
+               uint32_t samples)
 {
 	const struct frame_buffers *b = &job->tr->buffers;
 	const int asks = hooks_has(job, HOOK_ANY_HIT), transparent = job->prepared.has_transparency,
 		  through = asks || (transparent && !opacity_is_known(job, space));
 	float weight = 1.0f / (float)samples;
-	int err = occlude(job, space, to_lights, rays, b->occluded, n_rays);
+	int err = occlude(job, space, r, b->occluded);
 
 	if (!err)
-		err = launch_shadow_sum(job->tr->dev, n_rays, LAUNCH(shadow_sum, .rays = rays, .weight = weight, .first = sample == 0,
-		                                                     .through = (uint32_t)through, .n = n_rays,
-		                                                     .occluded = b->occluded,
-		                                                     .visibility = b->visibility));
-	return err || !(to_lights || transparent || asks) ? err : walk_layers(job, space, to_lights, rays, n_rays, weight);
+		err = launch_shadow_sum(job->tr->dev, r->n,
+		                        LAUNCH(shadow_sum, .rays = r->rays, .weight = weight, .first = sample == 0,
+		                               .through = (uint32_t)through, .n = r->n, .occluded = b->occluded,
+		                               .visibility = r->visibility));
+	return err || !(r->to_lights || transparent || asks) ? err : walk_layers(job, space, r, weight);
 }
 
-int secondary_reserve_rays(struct job *job, size_t n_rays)
+int secondary_reserve_rays(struct job *job, size_t n_rays, union buffer_float *visibility)
 {
 	struct tracer *tr = job->tr;
 	int err = frame_reserve(tr, rays, n_rays);
@@ -215,14 +213,19 @@ int secondary_reserve_rays(struct job *job, size_t n_rays)
 	if (!err)
 		err = frame_reserve(tr, occluded, n_rays);
 	if (!err)
-		err = frame_reserve(tr, visibility, 3 * (size_t)n_rays);
+		err = launch_reserve(tr->dev, *visibility, 3 * n_rays);
 	return err;
 }
 
-int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
-                  uint32_t n_rays)
+int secondary_ask(struct job *job, const struct accel_space *space, const struct light_rays *rays)
 {
-	return ask(job, space, to_lights, rays, n_rays, 0, 1);
+	return ask(job, space, rays, 0, 1);
+}
+
+/* The first n of buffers.rays. */
+static struct light_rays own_rays(const struct job *job, uint32_t to_lights, uint32_t n)
+{
+	return (struct light_rays){ job->tr->buffers.rays, job->tr->buffers.visibility, n, to_lights };
 }
 
 /* Rays to each light per pass. */
@@ -240,9 +243,10 @@ int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	uint32_t n_rays = job->prepared.n_light_slots * n, samples = light_rays(job);
-	int err = secondary_reserve_rays(job, n_rays);
+	int err = secondary_reserve_rays(job, n_rays, &tr->buffers.visibility);
 
 	for (uint32_t i = 0; i < samples && !err; i++) {
+		const struct light_rays rays = own_rays(job, 1, n_rays);
 		const struct shadow_ray_launch *a =
 			LAUNCH(shadow_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
 			       .fragments = b->fragments, .pixels = b->pixels, .width = job->width, .shaded = b->shaded,
@@ -254,7 +258,7 @@ int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t
 		else
 			err = launch_shadow_ray(tr->dev, n_rays, a);
 		if (!err)
-			err = ask(job, space, 1, b->rays, n_rays, i, samples);
+			err = ask(job, space, &rays, i, samples);
 	}
 	return err || !hooks_has(job, HOOK_LIGHT) ? err : hooks_light(job, secondary_transport(job->options), n);
 }
@@ -268,7 +272,7 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 	const uint32_t n_rays = job->prepared.n_light_slots * n, samples = (light_rays(job) + 3) / 4,
 		       all = n_rays + (emission.n_emitters ? n : 0);
 	const int packets = frame_in_packets(job);
-	int err = secondary_reserve_rays(job, all);
+	int err = secondary_reserve_rays(job, all, &tr->buffers.visibility);
 
 	if (!err)
 		err = frame_reserve(tr, wanted, n);
@@ -278,6 +282,7 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 		                                .rays = b->path_rays, .transport = transport, .n = n,
 		                                .wanted = b->wanted));
 	for (uint32_t i = 0; i < samples && !err; i++) {
+		const struct light_rays rays = own_rays(job, 1, all);
 		const struct hit_ray_launch *a =
 			LAUNCH(hit_ray, .tables = frame_tables(tr), .hits = b->path_hits, .rays = b->path_rays, .paths = b->paths,
 			       .pixels = b->pixels, .wanted = b->wanted, .transport = transport, .sample = job->pass * samples + i,
@@ -292,7 +297,7 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 			                               .frame = frame_number(job), .depth = job->options->depth,
 			                               .first = n_rays, .n = n, .out = b->rays));
 		if (!err)
-			err = ask(job, space, 1, b->rays, all, i, samples);
+			err = ask(job, space, &rays, i, samples);
 	}
 	return err || !hooks_has(job, HOOK_LIGHT) ? err : hooks_light_hits(job, transport, n);
 }
@@ -304,16 +309,18 @@ int secondary_openness(struct job *job, const struct accel_space *space, uint32_
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	uint32_t samples = job->options->rays;
-	int err = secondary_reserve_rays(job, n);
+	int err = secondary_reserve_rays(job, n, &tr->buffers.visibility);
 
 	for (uint32_t i = 0; i < samples && !err; i++) {
+		const struct light_rays rays = own_rays(job, 0, n);
+
 		err = launch_ao_ray(tr->dev, n, LAUNCH(ao_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
 		                                       .fragments = b->fragments, .pixels = b->pixels, .width = job->width,
 		                                       .shaded = b->shaded, .sample = job->pass * samples + i,
 		                                       .reach = job->options->reach > 0 ? job->options->reach : 1e30f, .n = n,
 		                                       .rays = b->rays));
 		if (!err)
-			err = ask(job, space, 0, b->rays, n, i, samples);
+			err = ask(job, space, &rays, i, samples);
 	}
 	if (err)
 		return err;
@@ -330,16 +337,18 @@ static int ask_emitters(struct job *job, const struct accel_space *space, uint32
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	const struct emission_launch emission = emitters_of(job, space);
-	int err = emission.n_emitters ? secondary_reserve_rays(job, n) : 0;
+	int err = emission.n_emitters ? secondary_reserve_rays(job, n, &tr->buffers.visibility) : 0;
+	struct light_rays rays;
 
 	if (err || !emission.n_emitters)
 		return err;
+	rays = own_rays(job, 1, n);
 	err = launch_leave_ray(tr->dev, n,
 	                       LAUNCH(leave_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
 	                              .fragments = b->fragments, .pixels = b->pixels, .width = job->width,
 	                              .shaded = b->shaded, .emission = emission, .sample = job->pass,
 	                              .frame = frame_number(job), .n = n, .rays = b->rays));
-	return err ? err : secondary_ask(job, space, 1, b->rays, n);
+	return err ? err : ask(job, space, &rays, 0, 1);
 }
 
 static int leave(struct job *job, const struct list *list, const struct accel_space *space, uint32_t transport,
@@ -375,7 +384,9 @@ static int look_at_sky(struct job *job, const struct accel_space *sky, uint32_t 
 		err = launch_sky_ray(
 			tr->dev, n,
 			LAUNCH(sky_ray, .hits = b->path_hits, .rays = b->path_rays, .n = n, .out = b->sky_rays));
-	return err ? err : intersect(job, sky, HOOK_RAYS_ON, 0, b->sky_rays, b->sky_hits, n);
+	return err ? err : intersect(job, HOOK_RAYS_ON,
+		                       (struct traverse_rays){ .space = sky, .n = n, .rays = b->sky_rays,
+		                                               .hits = b->sky_hits });
 }
 
 static int shade_hits(struct job *job, const struct list *list, const struct accel_space *space, uint32_t has_sky,
@@ -418,7 +429,9 @@ int secondary_follow(struct job *job, const struct accel_space *space, const str
 	for (uint32_t i = 0; i < job->options->depth + MOST_LAYERS && n && !err; i++) {
 		err = frame_reserve(tr, path_hits, n);
 		if (!err)
-			err = intersect(job, space, i == 0 && see ? HOOK_RAYS_FIRST : HOOK_RAYS_ON, 0, *list.rays, b->path_hits, n);
+			err = intersect(job, i == 0 && see ? HOOK_RAYS_FIRST : HOOK_RAYS_ON,
+			                (struct traverse_rays){ .space = space, .n = n, .rays = *list.rays,
+			                                        .hits = b->path_hits });
 		if (!err && i == 0 && see)
 			err = hooks_see(job, n);
 		if (!err)
@@ -465,7 +478,9 @@ static int send(struct job *job, const struct list *list, const struct accel_spa
 
 	if ((err = frame_reserve(tr, path_hits, n)) || (err = frame_reserve(tr, photons, n)) ||
 	    (err = frame_reserve(tr, next_counts, n)) || (err = reserve_next(job, list, (size_t)PATHS_PER_HIT * n)) ||
-	    (err = intersect(job, space, HOOK_RAYS_ON, 0, *list->rays, b->path_hits, n)) ||
+	    (err = intersect(job, HOOK_RAYS_ON,
+	                     (struct traverse_rays){ .space = space, .n = n, .rays = *list->rays,
+	                                             .hits = b->path_hits })) ||
 	    (err = launch_photon(tr->dev, n,
 	                         LAUNCH(photon, .tables = frame_tables(tr), .hits = b->path_hits, .rays = *list->rays,
 	                                .paths = *list->paths, .depth = job->options->depth, .pass = pass, .n = n,

@@ -15,11 +15,17 @@ uint32_t secondary_transport(const struct tracer_options *options);
 int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t n);
 
 /** Make room for rays to lights in buffers.rays, and for their results. */
-int secondary_reserve_rays(struct job *job, size_t n_rays);
+int secondary_reserve_rays(struct job *job, size_t n_rays, union buffer_float *visibility);
 
-/** Trace rays that exist already, into buffers.visibility[ray]. to_lights: 0 for rays into the surroundings */
-int secondary_ask(struct job *job, const struct accel_space *space, uint32_t to_lights, union buffer_ray rays,
-                  uint32_t n_rays);
+/* Rays, and room for the share of light that passes along each: [3][n], in red, green and blue. */
+struct light_rays {
+	union buffer_ray rays;
+	union buffer_float visibility;
+	uint32_t n, to_lights; /* to_lights: 0 for rays into the surroundings */
+};
+
+/** Trace rays that exist already. */
+int secondary_ask(struct job *job, const struct accel_space *space, const struct light_rays *rays);
 
 /** Compute how open the surroundings of all n fragments are, which replaces or modulates their colours. */
 int secondary_openness(struct job *job, const struct accel_space *space, uint32_t n);

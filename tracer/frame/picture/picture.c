@@ -120,7 +120,7 @@ int picture_count_band(struct job *job)
 	return device_unmap(job->tr->dev, job->tr->buffers.frame.buffer, mapped);
 }
 
-int picture_take_band(struct job *job, uint32_t stencil)
+int picture_take_band(struct job *job, union buffer_float kept, uint32_t stencil)
 {
 	struct tracer *tr = job->tr;
 	const struct frame_buffers *b = &tr->buffers;
@@ -133,7 +133,7 @@ int picture_take_band(struct job *job, uint32_t stencil)
 		err = frame_reserve(tr, depths, job->n_pixels);
 	if (!err)
 		err = launch_layered_picture(tr->dev, rows,
-		                             LAUNCH(layered_picture, .kept = b->kept_pixels, .width = job->width,
+		                             LAUNCH(layered_picture, .kept = kept, .width = job->width,
 		                                    .height = job->n_rows, .bits = job->bits, .colors = b->colors,
 		                                    .depths = b->depths, .unknown = b->unknown));
 	if (!err)

@@ -16,9 +16,9 @@ int picture_count_band(struct job *job);
 int picture_count_rows(struct job *job);
 
 /**
- * Read the band from buffers.kept_pixels into job->picture, and add its unknown pixels, in buffers.unknown, to
- * job->unknown.
+ * Read the band into job->picture, and add its unknown pixels, in buffers.unknown, to job->unknown.
+ * @param kept     pixels that the kernel layered kept
  * @param stencil  value that the stencil buffer was cleared to, if the scene starts without a picture
  * @return 0 or ERR_SYSTEM (reported)
  */
-int picture_take_band(struct job *job, uint32_t stencil);
+int picture_take_band(struct job *job, union buffer_float kept, uint32_t stencil);
