@@ -103,7 +103,8 @@ int tracer_check_aov(const char *aov)
 			known |= strlen(compose_groups[i]) == n && strncmp(compose_groups[i], at, n) == 0;
 		if (!known)
 			return err_report(ERR_USAGE, NULL,
-			                  "there is no channel group '%.*s'; there are gl, shadow, relight, reflect, refract, Z, N, P, "
+			                  "there is no channel group '%.*s'; there are gl, shadow, relight, reflect, "
+			                  "refract, Z, N, P, "
 			                  "albedo, id, layers, cryptomatte, motion and caustics",
 			                  (int)n, at);
 		at += n + (at[n] == ',');
@@ -113,105 +114,15 @@ int tracer_check_aov(const char *aov)
 
 /* --- Frames ------------------------------------------------------------------------------------------------------ */
 
-static void count_undrawn(struct job *job)
+/* A frame that is not placed yet. */
+static struct frame frame_of(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options)
 {
-	const struct scene *scene = job->scene;
-
-	for (uint32_t i = 0; i < scene->n_instances; i++)
-		job->tr->undrawn.targets += scene->views[scene->instances[i].view].target != 0;
-}
-
-/* Draw all bands. If the device has too little memory for a band, halve the rows of bands from then on. */
-static int trace_bands(struct job *job)
-{
-	const struct way *way = way_of(job);
-	uint32_t end = job->height;
-	int err = 0;
-
-	while (end > 0 && !err) {
-		const uint32_t rows = way_rows(way, job);
-
-		job->row_first = (end - 1) / rows * rows;
-		job->n_rows = end - job->row_first;
-		job->n_pixels = job->n_rows * job->width;
-		err = way->draw(job);
-		if (!err) {
-			end = job->row_first;
-		} else if (err == ERR_MEMORY && job->n_rows > CAMERA_TILE) {
-			job->tr->most_rows = job->n_rows / 2;
-			release_band(job->tr);
-			err = 0;
-		}
-	}
-	return err;
-}
-
-static void forget_frame(struct job *job)
-{
-	for (uint32_t i = 0; i < job->prepared.n_instances && job->expanded; i++)
-		expanded_free(&job->expanded[i]);
-	free(job->expanded);
-	free(job->extra);
-	free(job->emissions);
-	hook_objects_forget(job);
-	job->expanded = NULL;
-	job->extra = NULL;
-	job->emissions = NULL;
-	prepared_free(&job->prepared);
-	job->is_placed = 0;
-}
-
-/* Upload what all bands need: state, vertices, trees. A frame that is already on the device is only moved, if that
- * suffices. */
-static int place_frame(struct job *job, const float shift[2])
-{
-	int err;
-
-	if (job->is_placed && geometry_can_move(job)) {
-		prepare_shift(&job->prepared, shift);
-		return geometry_move(job);
-	}
-	forget_frame(job);
-	err = prepare_frame(job->scene, shift, &job->prepared);
-	if (err)
-		return err;
-	job->expanded = calloc(job->prepared.n_instances + (size_t)1, sizeof(*job->expanded));
-	job->extra = calloc(job->prepared.n_instances + (size_t)1, sizeof(*job->extra));
-	if (!job->expanded || !job->extra)
-		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	err = upload_state(job);
-	if (!err)
-		err = hooks_place(job);
-	if (!err)
-		err = hook_objects_find(job);
-	if (!err)
-		err = geometry_place(job);
-	if (!err)
-		err = emitters_place(job, secondary_transport(job->options));
-	job->is_placed = !err;
-	return err;
-}
-
-/* Trace one pass over the frame, band by band, top rows first. The frame stays on the device for the next pass until
- * forget_frame. */
-static int trace_pass(struct job *job)
-{
-	float shift[2] = { 0, 0 };
-	int err;
-
-	if (job->pass > 0)
-		sample_shift(job->turn, job->pass, shift);
-	/* With several passes, each samples one position in a pixel. The pass that makes GL's picture has GL's
-	 * samples. */
-	job->n_samples = job->scene->samples > 1 && job->pass == 0 ? SCENE_SAMPLES : 1;
-	err = place_frame(job, shift);
-	if (err == ERR_MEMORY) {
-		/* Bands of the previous frame may have taken the memory. */
-		forget_frame(job);
-		release_band(job->tr);
-		err = place_frame(job, shift);
-	}
-	return err ? err : trace_bands(job);
+	return (struct frame){ .tr = tracer,
+		               .scene = scene,
+		               .options = options,
+		               .width = scene->width,
+		               .height = scene->height,
+		               .bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16 };
 }
 
 static int check_size(const struct scene *scene)
@@ -222,23 +133,126 @@ static int check_size(const struct scene *scene)
 	                  (unsigned long long)scene->frame, scene->width, scene->height);
 }
 
-/* Draw a scene's picture, from scene->start on. */
-static int draw_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture)
+/* Draw all bands. If the device has too little memory for a band, halve the rows of bands from then on. */
+static int trace_bands(const struct pass *pass)
+{
+	const struct frame *frame = pass->frame;
+	const struct way *way = way_of(pass);
+	uint32_t end = frame->height;
+	int err = 0;
+
+	while (end > 0 && !err) {
+		const uint32_t rows = way_rows(way, frame), first = (end - 1) / rows * rows;
+		struct band band = { .frame = frame, .pass = pass, .row_first = first, .n_rows = end - first,
+			             .n_pixels = (end - first) * frame->width };
+
+		err = way->draw(&band);
+		if (!err) {
+			end = first;
+		} else if (err == ERR_MEMORY && band.n_rows > CAMERA_TILE) {
+			frame->tr->most_rows = band.n_rows / 2;
+			release_band(frame->tr);
+			err = 0;
+		}
+	}
+	return err;
+}
+
+static void forget_frame(struct frame *frame)
+{
+	for (uint32_t i = 0; i < frame->prepared.n_instances && frame->expanded; i++)
+		expanded_free(&frame->expanded[i]);
+	free(frame->expanded);
+	free(frame->extra);
+	free(frame->emissions);
+	hook_objects_forget(frame);
+	frame->expanded = NULL;
+	frame->extra = NULL;
+	frame->emissions = NULL;
+	prepared_free(&frame->prepared);
+	frame->is_placed = 0;
+}
+
+/* Upload what all bands need: state, vertices, trees. A frame that is already on the device is only moved, if that
+ * suffices. */
+static int place_frame(struct frame *frame, const float shift[2])
+{
+	int err;
+
+	if (frame->is_placed && geometry_can_move(frame)) {
+		prepare_shift(&frame->prepared, shift);
+		return geometry_move(frame);
+	}
+	forget_frame(frame);
+	err = prepare_frame(frame->scene, shift, &frame->prepared);
+	if (err)
+		return err;
+	frame->expanded = calloc(frame->prepared.n_instances + (size_t)1, sizeof(*frame->expanded));
+	frame->extra = calloc(frame->prepared.n_instances + (size_t)1, sizeof(*frame->extra));
+	if (!frame->expanded || !frame->extra)
+		return err_report(ERR_SYSTEM, NULL, "out of memory");
+	err = upload_state(frame);
+	if (!err)
+		err = hooks_place(frame);
+	if (!err)
+		err = hook_objects_find(frame);
+	if (!err)
+		err = geometry_place(frame);
+	if (!err)
+		err = emitters_place(frame, secondary_transport(frame->options));
+	frame->is_placed = !err;
+	return err;
+}
+
+/* Trace one pass over the frame, band by band, top rows first. The frame stays on the device for the next pass until
+ * forget_frame. */
+static int trace_pass(struct frame *frame, struct pass pass)
+{
+	float shift[2] = { 0, 0 };
+	int err;
+
+	if (pass.number > 0)
+		sample_shift(pass.turn, pass.number, shift);
+	/* With several passes, each samples one position in a pixel. The pass that makes GL's picture has GL's
+	 * samples. */
+	pass.n_samples = frame->scene->samples > 1 && pass.number == 0 ? SCENE_SAMPLES : 1;
+	pass.frame = frame;
+	err = place_frame(frame, shift);
+	if (err == ERR_MEMORY) {
+		/* Bands of the previous frame may have taken the memory. */
+		forget_frame(frame);
+		release_band(frame->tr);
+		err = place_frame(frame, shift);
+	}
+	return err ? err : trace_bands(&pass);
+}
+
+static uint64_t count_targets(const struct scene *scene)
+{
+	uint64_t n = 0;
+
+	for (uint32_t i = 0; i < scene->n_instances; i++)
+		n += scene->views[scene->instances[i].view].target != 0;
+	return n;
+}
+
+/* Draw a scene's picture, from scene->start on. drawn: counts are added to it */
+static int draw_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture,
+                        struct drawn *drawn)
 {
 	const struct tracer_options options = { .mode = TRACER_GL };
-	struct job job = { .tr = tracer, .scene = scene, .options = &options, .width = scene->width, .height = scene->height,
-		           .n_passes = 1, .picture = picture };
+	struct frame frame = frame_of(tracer, scene, &options);
 	int err = check_size(scene);
 
 	if (err)
 		return err;
-	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
-	err = trace_pass(&job);
+	drawn->unknown = 0;
+	err = trace_pass(&frame, (struct pass){ .count = 1, .picture = picture, .drawn = drawn });
 	if (!err)
-		err = ended_count(&job, NULL);
-	forget_frame(&job);
-	count_undrawn(&job);
-	picture->unknown = (uint32_t)job.unknown;
+		err = ended_count(&frame, NULL, &drawn->undrawn.ended);
+	forget_frame(&frame);
+	drawn->undrawn.targets += count_targets(scene);
+	picture->unknown = (uint32_t)drawn->unknown;
 	return err == ERR_MEMORY ? device_report_lack(tracer->dev) : err;
 }
 
@@ -250,8 +264,11 @@ struct begun {
 	struct scene_picture *start;
 };
 
+static int render_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture,
+                          struct drawn *drawn);
+
 /* Make a scene start from the picture of the one before it. begun->start: freed by the caller, also after an error */
-static int begin_with_before(struct tracer *tracer, const struct scene *scene, struct begun *begun)
+static int begin_with_before(struct tracer *tracer, const struct scene *scene, struct begun *begun, struct drawn *drawn)
 {
 	const struct scene *before = scene_before_use(scene->before);
 	int err = 0;
@@ -260,13 +277,16 @@ static int begin_with_before(struct tracer *tracer, const struct scene *scene, s
 	begun->scene.start = begun->start;
 	begun->scene.before = NULL;
 	if (before)
-		err = begun->start ? tracer_render_picture(tracer, before, begun->start) :
-		                     err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", before->width, before->height);
+		err = begun->start ? render_picture(tracer, before, begun->start, drawn) :
+		                     err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", before->width,
+		                                before->height);
 	scene_before_done(scene->before);
 	return err;
 }
 
-int tracer_render_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture)
+/* As tracer_render_picture. drawn: counts are added to it */
+static int render_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture,
+                          struct drawn *drawn)
 {
 	struct begun begun;
 	struct scene rest;
@@ -276,22 +296,39 @@ int tracer_render_picture(struct tracer *tracer, const struct scene *scene, stru
 	if (picture_recall(&tracer->drawn, scene, picture))
 		return 0;
 	if (!scene->before && picture_rest(&tracer->drawn, scene, &rest)) {
-		err = draw_picture(tracer, &rest, picture);
+		err = draw_picture(tracer, &rest, picture, drawn);
 		free(rest.clears);
 	} else {
-		err = draw_picture(tracer, scene, picture);
+		err = draw_picture(tracer, scene, picture, drawn);
 	}
 	if (!err && scene->before) {
 		scene_before_settle(scene->before, picture->unknown != 0);
 		if (picture->unknown) {
-			err = begin_with_before(tracer, scene, &begun);
+			err = begin_with_before(tracer, scene, &begun, drawn);
 			if (!err)
-				err = draw_picture(tracer, &begun.scene, picture);
+				err = draw_picture(tracer, &begun.scene, picture, drawn);
 			picture_free(begun.start);
 		}
 	}
 	if (!err)
 		picture_keep(&tracer->drawn, scene, picture);
+	return err;
+}
+
+/* Add what a call found to the tracer's counts. */
+static void count(struct tracer *tracer, const struct drawn *drawn)
+{
+	tracer->undrawn.targets += drawn->undrawn.targets;
+	tracer->undrawn.ended += drawn->undrawn.ended;
+	tracer_added_add(&tracer->added, &drawn->added, &(struct tracer_added){ 0 });
+}
+
+int tracer_render_picture(struct tracer *tracer, const struct scene *scene, struct scene_picture *picture)
+{
+	struct drawn drawn = { 0 };
+	int err = render_picture(tracer, scene, picture, &drawn);
+
+	count(tracer, &drawn);
 	return err;
 }
 
@@ -304,37 +341,34 @@ struct sampling {
 	struct noise noise;
 };
 
-static int show_all(struct job *job, struct image *img)
+/* Make the picture of `passes` passes. The last one is traced now. */
+static int show_all(struct frame *frame, uint32_t passes, struct image *img, struct drawn *drawn)
 {
-	int err = compose_start(job, img);
+	int err = compose_start(frame, img);
 
-	job->pass = 0;
-	job->image = img;
-	return err ? err : trace_pass(job);
+	return err ? err : trace_pass(frame, (struct pass){ .count = passes, .image = img, .drawn = drawn });
 }
 
 /* Show the picture of the samples so far, without affecting later ones. */
-static int show_preview(struct job *job, uint32_t passes)
+static int show_preview(struct frame *frame, uint32_t passes)
 {
 	struct image img = { .width = 0 };
-	struct job so_far;
+	struct drawn drawn = { 0 };
 	int err;
 
-	forget_frame(job);
-	so_far = *job;
-	so_far.n_passes = passes + 1;
-	err = show_all(&so_far, &img);
-	forget_frame(&so_far);
+	forget_frame(frame);
+	err = show_all(frame, passes + 1, &img, &drawn);
+	forget_frame(frame);
 	if (!err)
-		err = job->options->preview(job->options->preview_user, &img);
+		err = frame->options->preview(frame->options->preview_user, &img);
 	image_free(&img);
 	return err;
 }
 
 /* After a pass, decide whether it was the last one needed. passes: number summed so far; one more always follows */
-static int is_enough(struct job *job, struct sampling *s, uint32_t passes, int *enough)
+static int is_enough(struct frame *frame, struct sampling *s, uint32_t passes, int *enough)
 {
-	const struct tracer_options *o = job->options;
+	const struct tracer_options *o = frame->options;
 	const double now = progress_clock_s() - s->start_s, taken = now - s->last_s;
 	int err = 0;
 
@@ -346,153 +380,147 @@ static int is_enough(struct job *job, struct sampling *s, uint32_t passes, int *
 	if (o->noise > 0) {
 		float noise;
 
-		err = noise_measure(job, &s->noise, passes, &noise);
+		err = noise_measure(frame, &s->noise, passes, &noise);
 		*enough = noise <= o->noise;
 	}
 	if (!err && !*enough && o->preview)
-		err = show_preview(job, passes);
+		err = show_preview(frame, passes);
 	s->last_s = progress_clock_s() - s->start_s;
 	return err;
 }
 
-/* Get the scene of a sample while the shutter is open. It starts from the same picture as the frame. */
-static int expose(struct job *job, const struct scene *frame, struct scene *exposed)
+/* Trace a pass over the scene of its moment while the shutter is open. It starts from the same picture as the frame. */
+static int trace_moment(struct frame *frame, struct pass pass)
 {
-	const struct tracer_options *o = job->options;
+	const struct tracer_options *o = frame->options;
 	const struct scene *scene;
-	int err;
+	struct scene exposed;
+	struct frame moment;
+	int err = o->expose(o->expose_user, (double)sample_time(pass.turn, pass.number), &scene);
 
-	forget_frame(job);
-	err = o->expose(o->expose_user, (double)sample_time(job->turn, job->pass), &scene);
 	if (err)
 		return err;
-	*exposed = *scene;
-	exposed->start = frame->start;
-	exposed->before = frame->before;
-	job->scene = exposed;
-	return 0;
+	exposed = *scene;
+	exposed.start = frame->scene->start;
+	exposed.before = frame->scene->before;
+	moment = frame_of(frame->tr, &exposed, o);
+	err = trace_pass(&moment, pass);
+	forget_frame(&moment);
+	return err;
 }
 
 /* Trace one sample of all pixels. */
-static int sum_pass(struct job *job)
+static int sum_pass(struct frame *frame, struct pass pass)
 {
-	const uint32_t is_path = job->options->mode == TRACER_PATH;
-	const struct scene *frame = job->scene;
-	struct scene exposed;
+	const uint32_t is_path = frame->options->mode == TRACER_PATH;
 	int err = 0;
 
-	for (job->turn = is_path ? SAMPLE_TURNS : 0; job->turn < SAMPLE_TURNS + is_path && !err; job->turn++) {
-		if (job->options->expose)
-			err = expose(job, frame, &exposed);
-		if (!err)
-			err = trace_pass(job);
-	}
-	if (job->options->expose)
-		forget_frame(job);
-	job->scene = frame;
+	for (pass.turn = is_path ? SAMPLE_TURNS : 0; pass.turn < SAMPLE_TURNS + is_path && !err; pass.turn++)
+		err = frame->options->expose ? trace_moment(frame, pass) : trace_pass(frame, pass);
 	return err;
 }
 
 /* Trace all passes except the one through pixel centres. If sampling may end early, they are in order: any first
- * samples are spread evenly. */
-static int sum_passes(struct job *job)
+ * samples are spread evenly. n: number of passes; receives that of those needed */
+static int sum_passes(struct frame *frame, uint32_t *n, struct drawn *drawn)
 {
-	const struct tracer_options *o = job->options;
-	const uint32_t n = job->n_passes;
+	const struct tracer_options *o = frame->options;
 	const int in_order = o->mode == TRACER_PATH || o->seconds > 0 || o->noise > 0 || o->preview;
 	struct sampling s = { .start_s = progress_clock_s(), .next = 1 };
 	int err = 0, enough = 0;
 	uint32_t i = 1;
 
-	for (; i < n && !err && !enough; i++) {
-		job->pass = in_order ? i : n - i;
-		job->is_first = i == 1;
-		err = sum_pass(job);
+	for (; i < *n && !err && !enough; i++) {
+		err = sum_pass(frame, (struct pass){ .number = in_order ? i : *n - i, .count = *n, .is_first = i == 1,
+		                                     .drawn = drawn });
 		if (!err && o->sampled)
-			o->sampled(o->sampled_user, i, o->seconds > 0 || o->noise > 0 ? 0 : n);
+			o->sampled(o->sampled_user, i, o->seconds > 0 || o->noise > 0 ? 0 : *n);
 		if (!err)
-			err = is_enough(job, &s, i, &enough);
+			err = is_enough(frame, &s, i, &enough);
 	}
-	job->n_passes = i;
+	*n = i;
 	noise_free(&s.noise);
 	return err;
 }
 
-/* Render a scene to an image, from scene->start on. unknown: receives the number of pixels that show unknown contents
- * from before */
+/* Render a scene to an image, from scene->start on. drawn: counts are added to it; those of unknown pixels are set */
 static int draw_image(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
-                      struct image *img, uint64_t *unknown)
+                      struct image *img, struct drawn *drawn)
 {
 	struct tracer_options known = *options;
-	struct job job = { .tr = tracer, .scene = scene, .options = &known, .width = scene->width, .height = scene->height,
-		           .n_passes = options->samples ? options->samples : 1 };
+	struct frame frame = frame_of(tracer, scene, &known);
+	uint32_t passes = options->samples ? options->samples : 1;
 	int err = 0;
 
 	if (check_size(scene) != 0)
 		return ERR_SYSTEM;
 	if (known.rays == 0)
 		known.rays = 16;
-	job.bits = scene->depth_bits | scene->stencil_bits << 8 | scene->alpha_bits << 16;
+	drawn->unknown = 0;
 	/* The pass through pixel centres comes last: values that are not averaged come from it. */
-	err = sum_passes(&job);
+	err = sum_passes(&frame, &passes, drawn);
 	if (!err)
-		err = show_all(&job, img);
+		err = show_all(&frame, passes, img, drawn);
 	if (!err)
-		err = ended_count(&job, img);
+		err = ended_count(&frame, img, &drawn->undrawn.ended);
 	if (!err && known.photons)
-		err = photons_add(&job, img);
-	forget_frame(&job);
-	if (!err && job.n_passes < options->samples)
-		err = image_set_attribute(img, "relume:samples", "%u", job.n_passes);
-	count_undrawn(&job);
-	*unknown = job.unknown;
-	if (!err)
-		tracer_added_add(&tracer->added, &job.added, &(struct tracer_added){ 0 });
-	else
+		err = photons_add(&frame, img);
+	forget_frame(&frame);
+	if (!err && passes < options->samples)
+		err = image_set_attribute(img, "relume:samples", "%u", passes);
+	drawn->undrawn.targets += count_targets(scene);
+	if (err) {
+		drawn->added = (struct tracer_added){ 0 };
 		image_free(img);
+	}
 	return err == ERR_MEMORY ? device_report_lack(tracer->dev) : err;
 }
 
 /* Count the pixels that show contents from before the scene, from a frame that is not made yet. */
-static int count_unknown(struct tracer *tracer, const struct scene *scene, uint64_t *unknown)
+static int count_unknown(struct tracer *tracer, const struct scene *scene, struct drawn *drawn)
 {
 	struct scene_picture *picture = picture_blank(scene);
 	int err = picture ?
-	                  draw_picture(tracer, scene, picture) :
+	                  draw_picture(tracer, scene, picture, drawn) :
 	                  err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", scene->width, scene->height);
 
-	if (!err)
-		*unknown = picture->unknown;
 	picture_free(picture);
+	return err;
+}
+
+/* Render a scene whose first picture shows contents from before it. */
+static int draw_from_before(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
+                            struct image *img, struct drawn *drawn)
+{
+	struct drawn before = { 0 };
+	struct begun begun;
+	int err = begin_with_before(tracer, scene, &begun, &before);
+
+	*drawn = (struct drawn){ 0 };
+	if (!err)
+		err = draw_image(tracer, &begun.scene, options, img, drawn);
+	picture_free(begun.start);
 	return err;
 }
 
 int tracer_render(struct tracer *tracer, const struct scene *scene, const struct tracer_options *options,
                   struct image *img)
 {
-	const struct tracer_undrawn undrawn = tracer->undrawn;
-	const struct tracer_added added = tracer->added;
 	const int is_quick = options->samples <= 1 && !options->photons; /* not worth a look beforehand */
-	uint64_t unknown = 0;
-	struct begun begun;
+	struct drawn drawn = { 0 };
 	int err = 0;
 
 	if (scene->before && !is_quick)
-		err = count_unknown(tracer, scene, &unknown);
-	if (!err && !unknown)
-		err = draw_image(tracer, scene, options, img, &unknown);
-	if (err || !scene->before)
-		return err;
-	scene_before_settle(scene->before, unknown != 0);
-	if (!unknown)
-		return 0;
-	if (is_quick)
-		image_free(img);
-	err = begin_with_before(tracer, scene, &begun);
-	tracer->undrawn = undrawn;
-	tracer->added = added;
-	if (!err)
-		err = draw_image(tracer, &begun.scene, options, img, &unknown);
-	picture_free(begun.start);
+		err = count_unknown(tracer, scene, &drawn);
+	if (!err && !drawn.unknown)
+		err = draw_image(tracer, scene, options, img, &drawn);
+	if (!err && scene->before) {
+		scene_before_settle(scene->before, drawn.unknown != 0);
+		if (drawn.unknown && is_quick)
+			image_free(img);
+		if (drawn.unknown)
+			err = draw_from_before(tracer, scene, options, img, &drawn);
+	}
+	count(tracer, &drawn);
 	return err;
 }

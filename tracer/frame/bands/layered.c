@@ -29,141 +29,145 @@ struct looks {
 	uint32_t skipped;           /* clears of the first segment that are part of the initial pixels */
 };
 
-static const struct accel_space *space_of(const struct job *job, const struct segment *segment)
+static const struct accel_space *space_of(const struct frame *frame, const struct segment *segment)
 {
-	return job->options->mode == TRACER_GL ? NULL : secondary_space(job, segment->view, 0);
+	return frame->options->mode == TRACER_GL ? NULL : secondary_space(frame, segment->view, 0);
 }
 
 /* 1 if a segment's rays need another space than those of the round so far. */
-static int leaves_space(const struct job *job, const struct segment *segment, const struct looks *looks)
+static int leaves_space(const struct frame *frame, const struct segment *segment, const struct looks *looks)
 {
-	const int has_rays = job->prepared.n_light_slots || plain_has_mirrors(job);
-	const struct accel_space *own = has_rays ? space_of(job, segment) : NULL;
+	const int has_rays = frame->prepared.n_light_slots || plain_has_mirrors(frame);
+	const struct accel_space *own = has_rays ? space_of(frame, segment) : NULL;
 
 	return own && looks->space && own != looks->space;
 }
 
 /* Number of the first segment's clears that are part of the initial pixels. */
-static uint32_t cleared_first(const struct job *job, struct scene_clear *clear)
+static uint32_t cleared_first(const struct frame *frame, struct scene_clear *clear)
 {
-	const uint32_t n = segment_whole_clear(job, clear);
+	const uint32_t n = segment_whole_clear(frame, clear);
 
-	return job->scene->start ? 0 : n;
+	return frame->scene->start ? 0 : n;
 }
 
 /* 1 if later clears affect none of these buffers (bits as in a Clear). */
-static int keeps_uncleared(const struct job *job, uint32_t buffers)
+static int keeps_uncleared(const struct frame *frame, uint32_t buffers)
 {
 	struct scene_clear clear;
-	uint32_t first = cleared_first(job, &clear);
+	uint32_t first = cleared_first(frame, &clear);
 
-	for (uint32_t i = 0; i < job->prepared.n_segments; i++, first = 0) {
-		const struct segment *segment = &job->prepared.segments[i];
+	for (uint32_t i = 0; i < frame->prepared.n_segments; i++, first = 0) {
+		const struct segment *segment = &frame->prepared.segments[i];
 
 		for (uint32_t k = first; k < segment->clear_count; k++)
-			if (job->scene->clears[segment->clear_first + k].target == 0 &&
-			    job->scene->clears[segment->clear_first + k].buffers & buffers)
+			if (frame->scene->clears[segment->clear_first + k].target == 0 &&
+			    frame->scene->clears[segment->clear_first + k].buffers & buffers)
 				return 0;
 	}
 	return 1;
 }
 
 /* Buffers that all pixels begin with cleared. */
-static uint32_t cleared_buffers(const struct job *job)
+static uint32_t cleared_buffers(const struct frame *frame)
 {
 	struct scene_clear clear;
-	const uint32_t n = cleared_first(job, &clear);
+	const uint32_t n = cleared_first(frame, &clear);
 	uint32_t buffers = 0;
 
 	for (uint32_t i = 0; i < n; i++)
-		buffers |= job->scene->clears[job->prepared.segments[0].clear_first + i].buffers;
+		buffers |= frame->scene->clears[frame->prepared.segments[0].clear_first + i].buffers;
 	return buffers;
 }
 
 /* 1 if unknown colours from before the frame may show. */
-static int is_unknown(const struct job *job)
+static int is_unknown(const struct frame *frame)
 {
-	return job->scene->needs_previous && !job->scene->start && !(cleared_buffers(job) & 1);
+	return frame->scene->needs_previous && !frame->scene->start && !(cleared_buffers(frame) & 1);
 }
 
 /* For a picture: 1 if at most the colour of its pixels is unknown, and the stencil is unchanged. */
-static int suits_picture(const struct job *job)
+static int suits_picture(const struct pass *pass)
 {
-	const struct scene *scene = job->scene;
+	const struct frame *frame = pass->frame;
+	const struct scene *scene = frame->scene;
 
-	if (job->picture->colors || job->picture->samples ||
-	    (scene->needs_previous && !scene->start && !(cleared_buffers(job) & 2)))
+	if (pass->picture->colors || pass->picture->samples ||
+	    (scene->needs_previous && !scene->start && !(cleared_buffers(frame) & 2)))
 		return 0;
 	for (uint32_t i = 0; i < scene->n_rectangles && scene->stencil_bits; i++)
 		if (scene->rectangles[i].kind == SCENE_STENCIL_PIXELS)
 			return 0;
-	return !scene->stencil_bits || keeps_uncleared(job, 4);
+	return !scene->stencil_bits || keeps_uncleared(frame, 4);
 }
 
 /* For an image: 1 if at most the colour of its pixels is unknown, and that may be made later. */
-static int suits_image(const struct job *job)
+static int suits_image(const struct frame *frame)
 {
-	const struct scene *scene = job->scene;
+	const struct scene *scene = frame->scene;
 
-	return !scene->needs_previous || scene->start || (scene->before && cleared_buffers(job) & 2);
+	return !scene->needs_previous || scene->start || (scene->before && cleared_buffers(frame) & 2);
 }
 
-int layered_suits(const struct job *job)
+int layered_suits(const struct pass *pass)
 {
-	const struct prepared *p = &job->prepared;
+	const struct frame *frame = pass->frame;
+	const struct prepared *p = &frame->prepared;
 
-	if (!frame_in_packets(job) || !plain_is_simple(job) || !keeps_uncleared(job, 1) || dome_is_there(job) ||
+	if (!frame_in_packets(frame) || !plain_is_simple(pass) || !keeps_uncleared(frame, 1) || dome_is_there(frame) ||
 	    p->has_fragment_programs || p->has_vertex_programs)
 		return 0;
-	if ((job->scene->start && job->scene->start->colors) || !(job->image ? suits_image(job) : suits_picture(job)))
+	if ((frame->scene->start && frame->scene->start->colors) ||
+	    !(pass->image ? suits_image(frame) : suits_picture(pass)))
 		return 0;
 	for (uint32_t i = 0; i < p->n_instances; i++)
-		if (pack_refuses_layers(&job->scene->materials[p->instances[i].material], pixel_stencil_bits(job->bits) != 0,
-		                        plain_has_mirrors(job)))
+		if (pack_refuses_layers(&frame->scene->materials[p->instances[i].material], pixel_stencil_bits(frame->bits) != 0,
+		                        plain_has_mirrors(frame)))
 			return 0;
 	return 1;
 }
 
 /* 1 if a pixel may have many fragments. */
-static int has_columns(const struct job *job)
+static int has_columns(const struct frame *frame)
 {
 	int columns = 0;
 
-	for (uint32_t i = 0; i < job->prepared.n_segments; i++)
-		columns |= job->prepared.segments[i].mode == CAMERA_COLUMN;
+	for (uint32_t i = 0; i < frame->prepared.n_segments; i++)
+		columns |= frame->prepared.segments[i].mode == CAMERA_COLUMN;
 	return columns;
 }
 
-uint32_t layered_pixels(const struct job *job)
+uint32_t layered_pixels(const struct frame *frame)
 {
-	return has_columns(job) ? 16384u : 65536u;
+	return has_columns(frame) ? 16384u : 65536u;
 }
 
 /* --- Looks ------------------------------------------------------------------------------------------------------- */
 
 /* Clear the counts of a look: they are 0 outside its rectangle. */
-static int clear_look(struct job *job, const struct looks *looks)
+static int clear_look(const struct band *band, const struct looks *looks)
 {
-	struct tracer *tr = job->tr;
-	const uint32_t first = plain_look_first(looks->columns, looks->n, job->n_pixels);
-	const size_t bytes = job->n_pixels * sizeof(*tr->counts);
+	struct tracer *tr = band->frame->tr;
+	const uint32_t first = plain_look_first(looks->columns, looks->n, band->n_pixels);
+	const size_t bytes = band->n_pixels * sizeof(*tr->counts);
 
 	memset(tr->counts, 0, bytes);
 	return device_write(tr->dev, tr->buffers.counts.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
 }
 
 /* Make room for one look at each segment, and one more for continued columns. */
-static int reserve_looks(struct job *job, struct looks *looks)
+static int reserve_looks(const struct band *band, struct looks *looks)
 {
-	struct tracer *tr = job->tr;
+	const struct frame *frame = band->frame;
+	struct tracer *tr = frame->tr;
 	size_t n;
 	int err;
 
-	looks->most = has_columns(job);
-	for (uint32_t i = 0; i < job->prepared.n_segments; i++)
-		looks->most += job->prepared.segments[i].view != SCENE_NONE;
+	looks->most = has_columns(frame);
+	for (uint32_t i = 0; i < frame->prepared.n_segments; i++)
+		looks->most += frame->prepared.segments[i].view != SCENE_NONE;
 	looks->most = looks->most < PLAIN_LOOKS ? looks->most : PLAIN_LOOKS;
-	n = (size_t)looks->most * job->n_pixels;
+	n = (size_t)looks->most * band->n_pixels;
 	err = frame_reserve(tr, counts, n * CAMERA_COLUMN_MAX);
 	if (!err)
 		err = frame_reserve(tr, after, n);
@@ -171,18 +175,21 @@ static int reserve_looks(struct job *job, struct looks *looks)
 }
 
 /* Add a look's counts, in tracer.counts, to the layers of blocks, in tracer.first. @return most layers of a pixel */
-static uint32_t add_layers(struct job *job, struct looks *looks)
+static uint32_t add_layers(const struct band *band, struct looks *looks)
 {
-	const uint32_t columns = plain_columns(job->width);
+	const struct frame *frame = band->frame;
+	const uint32_t columns = plain_columns(frame->width);
 	uint32_t most_of_all = 0;
 
-	for (uint32_t y0 = 0; y0 < job->n_rows; y0 += PLAIN_ROWS)
-		for (uint32_t x0 = 0; x0 < job->width; x0 += PLAIN_WIDTH) {
-			uint32_t *layers = &job->tr->first[y0 / PLAIN_ROWS * columns + x0 / PLAIN_WIDTH], most = 0;
+	for (uint32_t y0 = 0; y0 < band->n_rows; y0 += PLAIN_ROWS)
+		for (uint32_t x0 = 0; x0 < frame->width; x0 += PLAIN_WIDTH) {
+			uint32_t *layers = &frame->tr->first[y0 / PLAIN_ROWS * columns + x0 / PLAIN_WIDTH], most = 0;
 
-			for (uint32_t y = y0; y < y0 + PLAIN_ROWS && y < job->n_rows; y++)
-				for (uint32_t x = x0; x < x0 + PLAIN_WIDTH && x < job->width; x++)
-					most = job->tr->counts[y * job->width + x] > most ? job->tr->counts[y * job->width + x] : most;
+			for (uint32_t y = y0; y < y0 + PLAIN_ROWS && y < band->n_rows; y++)
+				for (uint32_t x = x0; x < x0 + PLAIN_WIDTH && x < frame->width; x++)
+					most = frame->tr->counts[y * frame->width + x] > most ?
+					               frame->tr->counts[y * frame->width + x] :
+					               most;
 			*layers += most;
 			looks->layers = *layers > looks->layers ? *layers : looks->layers;
 			most_of_all = most > most_of_all ? most : most_of_all;
@@ -191,19 +198,19 @@ static uint32_t add_layers(struct job *job, struct looks *looks)
 }
 
 /* Find where the columns filled by the last look continue. tracer.counts: its counts, replaced by these positions. */
-static int go_on(struct job *job, const struct looks *looks)
+static int go_on(const struct band *band, const struct looks *looks)
 {
-	struct tracer *tr = job->tr;
-	const uint32_t from = plain_look_first(looks->columns, looks->n - 1, job->n_pixels);
+	struct tracer *tr = band->frame->tr;
+	const uint32_t from = plain_look_first(looks->columns, looks->n - 1, band->n_pixels);
 	const struct fragment *sparse;
 	const void *mapped;
 	int err = device_map(tr->dev, tr->buffers.sparse.buffer,
-	                     ((size_t)from + job->n_pixels) * CAMERA_COLUMN_MAX * sizeof(*sparse), 1, &mapped);
+	                     ((size_t)from + band->n_pixels) * CAMERA_COLUMN_MAX * sizeof(*sparse), 1, &mapped);
 
 	if (err)
 		return err;
 	sparse = mapped;
-	for (uint32_t i = 0; i < job->n_pixels; i++)
+	for (uint32_t i = 0; i < band->n_pixels; i++)
 		tr->counts[i] = tr->counts[i] == CAMERA_COLUMN_MAX ?
 		                        sparse[((size_t)from + i) * CAMERA_COLUMN_MAX + CAMERA_COLUMN_MAX - 1].order +
 		                                1 :
@@ -212,77 +219,84 @@ static int go_on(struct job *job, const struct looks *looks)
 }
 
 /* Look once at a rectangle of a segment. */
-static int look_at(struct job *job, const struct segment *segment, struct camera_rectangle r, struct looks *looks)
+static int look_at(const struct band *band, const struct segment *segment, struct camera_rectangle r,
+                   struct looks *looks)
 {
-	struct tracer *tr = job->tr;
-	const struct accel_space *space = space_of(job, segment);
+	const struct frame *frame = band->frame;
+	struct tracer *tr = frame->tr;
+	const struct accel_space *space = space_of(frame, segment);
 	const uint32_t is_column = segment->mode == CAMERA_COLUMN;
-	const size_t bytes = job->n_pixels * sizeof(*tr->counts);
+	const size_t bytes = band->n_pixels * sizeof(*tr->counts);
 	uint32_t first;
 	int err = 0;
 
 	looks->columns |= is_column << looks->n;
 	looks->asking |= (space != NULL) << looks->n;
 	looks->space = space ? space : looks->space;
-	looks->sky = space ? secondary_space(job, segment->view, 1) : looks->sky;
-	first = plain_look_first(looks->columns, looks->n, job->n_pixels);
+	looks->sky = space ? secondary_space(frame, segment->view, 1) : looks->sky;
+	first = plain_look_first(looks->columns, looks->n, band->n_pixels);
 	if (!looks->goes_on)
 		memset(tr->counts, 0, bytes); /* columns start at the first fragment */
 	if (is_column)
 		err = device_write(tr->dev, tr->buffers.after.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
 	if (!err)
-		err = clear_look(job, looks);
+		err = clear_look(band, looks);
 	if (!err)
-		err = segment_trace_camera(job, segment, r, first);
+		err = segment_trace_camera(band, segment, r, first);
 	if (!err)
 		err = device_read(tr->dev, tr->buffers.counts.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
 	looks->n++;
-	looks->goes_on = !err && add_layers(job, looks) == CAMERA_COLUMN_MAX && is_column;
-	return looks->goes_on ? go_on(job, looks) : err;
+	looks->goes_on = !err && add_layers(band, looks) == CAMERA_COLUMN_MAX && is_column;
+	return looks->goes_on ? go_on(band, looks) : err;
 }
 
 /* Add the clears of a segment before the next look. */
-static void clear_segment(const struct job *job, const struct segment *segment, struct looks *looks)
+static void clear_segment(const struct band *band, const struct segment *segment, struct looks *looks)
 {
-	const uint32_t bits = pixel_depth_bits(job->bits);
+	const uint32_t bits = pixel_depth_bits(band->frame->bits);
 
 	for (uint32_t i = looks->cleared ? 0 : looks->skipped; i < segment->clear_count; i++) {
-		const struct scene_clear *clear = &job->scene->clears[segment->clear_first + i];
-		const struct camera_rectangle r = segment_in_buffers(job, segment_rectangle(job, clear->scissor));
+		const struct scene_clear *clear = &band->frame->scene->clears[segment->clear_first + i];
+		const struct camera_rectangle r = segment_in_buffers(band, segment_rectangle(band, clear->scissor));
 
 		if (clear->target == 0 && clear->buffers & 2)
-			looks->clears[looks->n_clears++] = (struct layer_clear){
-				looks->n, r.x0, r.y0, r.x1, r.y1, pixel_depth_steps(clear->depth, bits), clamp01(clear->depth)
-			};
+			looks->clears[looks->n_clears++] = (struct layer_clear){ looks->n,
+				                                                 r.x0,
+				                                                 r.y0,
+				                                                 r.x1,
+				                                                 r.y1,
+				                                                 pixel_depth_steps(clear->depth, bits),
+				                                                 clamp01(clear->depth) };
 	}
 	looks->cleared++;
 }
 
 /* Run the looks of one round. tracer.first receives the layers of blocks. */
-static int look_around(struct job *job, struct looks *looks)
+static int look_around(const struct band *band, struct looks *looks)
 {
-	const struct prepared *p = &job->prepared;
+	const struct frame *frame = band->frame;
+	const struct prepared *p = &frame->prepared;
 	int err = 0;
 
 	looks->n = looks->layers = looks->columns = looks->asking = looks->n_clears = 0;
 	looks->space = looks->sky = NULL;
-	memset(job->tr->first, 0, plain_blocks(job->width, job->n_rows) * sizeof(*job->tr->first));
+	memset(frame->tr->first, 0, plain_blocks(frame->width, band->n_rows) * sizeof(*frame->tr->first));
 	while (!err && looks->next < p->n_segments) {
 		const struct segment *segment = &p->segments[looks->next];
 		const uint32_t slots = segment->mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1;
 
 		if (segment->view != SCENE_NONE && segment->instance_count) {
-			const struct camera_rectangle r = segment_rectangle(job, p->views[segment->view].scissor);
+			const struct camera_rectangle r = segment_rectangle(band, p->views[segment->view].scissor);
 
 			if (looks->n == looks->most || looks->layers + slots > PLAIN_LAYERS ||
-			    leaves_space(job, segment, looks))
+			    leaves_space(frame, segment, looks))
 				return 0;
 			if (looks->cleared == looks->next)
-				clear_segment(job, segment, looks);
+				clear_segment(band, segment, looks);
 			if (r.x0 < r.x1)
-				err = look_at(job, segment, r, looks);
+				err = look_at(band, segment, r, looks);
 		} else if (looks->cleared == looks->next) {
-			clear_segment(job, segment, looks);
+			clear_segment(band, segment, looks);
 		}
 		looks->next += !looks->goes_on;
 	}
@@ -290,15 +304,16 @@ static int look_around(struct job *job, struct looks *looks)
 }
 
 /* Give blocks with fragments their places, one per layer. @return number of pixels in all places */
-static uint32_t place_blocks(struct job *job)
+static uint32_t place_blocks(const struct band *band)
 {
-	const uint32_t blocks = plain_blocks(job->width, job->n_rows);
+	const struct frame *frame = band->frame;
+	const uint32_t blocks = plain_blocks(frame->width, band->n_rows);
 	uint32_t next = 0;
 
 	for (uint32_t i = 0; i < blocks; i++) {
-		const uint32_t layers = job->tr->first[i];
+		const uint32_t layers = frame->tr->first[i];
 
-		job->tr->first[i] = layers ? next : SCENE_NONE;
+		frame->tr->first[i] = layers ? next : SCENE_NONE;
 		next += layers;
 	}
 	return next * PLAIN_WIDTH * PLAIN_ROWS;
@@ -307,9 +322,9 @@ static uint32_t place_blocks(struct job *job)
 /* --- Drawing ----------------------------------------------------------------------------------------------------- */
 
 /* Make room for the kernels' results for n fragments and their rays. */
-static int reserve_places(struct job *job, uint32_t n, uint32_t n_slots)
+static int reserve_places(const struct frame *frame, uint32_t n, uint32_t n_slots)
 {
-	struct tracer *tr = job->tr;
+	struct tracer *tr = frame->tr;
 	int err;
 
 	if ((err = frame_reserve(tr, alone_fragments, n)) || (err = frame_reserve(tr, alone_pixels, n)) ||
@@ -318,16 +333,16 @@ static int reserve_places(struct job *job, uint32_t n, uint32_t n_slots)
 	    (err = frame_reserve(tr, pixels, 1)) || (err = frame_reserve(tr, shaded, 1)) ||
 	    (err = frame_reserve(tr, dome_places, 1)))
 		return err;
-	return secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1, &tr->buffers.layer_visibility);
+	return secondary_reserve_rays(frame, n_slots ? (size_t)n * n_slots : 1, &tr->buffers.layer_visibility);
 }
 
 /* round: PLAIN_BEGINS and similar flags */
-static struct plain_launch launch_of(const struct job *job, const struct looks *looks, uint32_t round, uint32_t n,
+static struct plain_launch launch_of(const struct band *band, const struct looks *looks, uint32_t round, uint32_t n,
                                      uint32_t n_slots, const struct compose_request *request)
 {
 	static const struct camera_rectangle nowhere;
-	const struct frame_buffers *b = &job->tr->buffers;
-	struct plain_launch a = plain_launch_of(job, nowhere, n, n_slots, b->layer_visibility, request);
+	const struct frame_buffers *b = &band->frame->tr->buffers;
+	struct plain_launch a = plain_launch_of(band, nowhere, n, n_slots, b->layer_visibility, request);
 
 	a.fragments = b->alone_fragments;
 	a.pixels = b->alone_pixels;
@@ -335,7 +350,7 @@ static struct plain_launch launch_of(const struct job *job, const struct looks *
 	a.layers = *LAUNCH(layers, .counts = b->counts, .n_looks = looks->n, .columns = looks->columns,
 	                   .asking = looks->asking, .round = round, .clears = b->layer_clears,
 	                   .n_clears = looks->n_clears, .before = *looks->before, .after = *looks->after,
-	                   .unknown = b->unknown, .mirrors = looks->space && plain_has_mirrors(job),
+	                   .unknown = b->unknown, .mirrors = looks->space && plain_has_mirrors(band->frame),
 	                   .leaving = b->leaving, .list_first = b->leaving_first, .list = b->fragments,
 	                   .list_pixels = b->pixels, .list_shaded = b->shaded);
 	return a;
@@ -343,9 +358,9 @@ static struct plain_launch launch_of(const struct job *job, const struct looks *
 
 /* Give the fragments that reflect or transmit light their places in the list, out of n fragments. n_list: receives
  * their number */
-static int place_leaving(struct job *job, uint32_t n, uint32_t *n_list)
+static int place_leaving(const struct frame *frame, uint32_t n, uint32_t *n_list)
 {
-	struct tracer *tr = job->tr;
+	struct tracer *tr = frame->tr;
 	const uint32_t rows = n / PLAIN_WIDTH;
 	uint32_t *first = malloc(rows * sizeof(*first));
 	const void *mapped;
@@ -373,146 +388,155 @@ static int place_leaving(struct job *job, uint32_t n, uint32_t *n_list)
 }
 
 /* Follow paths from the list, then make all planes if there are any. */
-static int follow(struct job *job, const struct looks *looks, struct plain_launch a, uint32_t n_list)
+static int follow(const struct band *band, const struct looks *looks, struct plain_launch a, uint32_t n_list)
 {
-	int err = secondary_paths(job, looks->space, looks->sky, n_list);
+	int err = secondary_paths(band, looks->space, looks->sky, n_list);
 
 	if (err)
 		return err;
-	a = launch_of(job, looks, a.layers.round, a.n, a.n_slots, &a.request);
-	return launch_layered_mirror(job->tr->dev, plain_blocks(job->width, job->n_rows), &a);
+	a = launch_of(band, looks, a.layers.round, a.n, a.n_slots, &a.request);
+	return launch_layered_mirror(band->frame->tr->dev, plain_blocks(band->frame->width, band->n_rows), &a);
 }
 
 /* Draw all planes without shadows and mirrors, trace rays to lights, then redraw the planes that these change. */
-static int draw(struct job *job, const struct looks *looks, uint32_t round, uint32_t n,
+static int draw(const struct band *band, const struct looks *looks, uint32_t round, uint32_t n,
                 const struct compose_request *request)
 {
-	const uint32_t blocks = plain_blocks(job->width, job->n_rows),
-		       n_slots = looks->space && n ? job->prepared.n_light_slots : 0;
+	const struct frame *frame = band->frame;
+	const uint32_t blocks = plain_blocks(frame->width, band->n_rows),
+		       n_slots = looks->space && n ? frame->prepared.n_light_slots : 0;
 	uint32_t n_list = 0;
 	struct plain_launch a;
-	int err = reserve_places(job, n, n_slots);
+	int err = reserve_places(frame, n, n_slots);
 
 	if (!err)
-		err = frame_upload(job->tr, layer_clears, looks->clears, looks->n_clears + 1);
+		err = frame_upload(frame->tr, layer_clears, looks->clears, looks->n_clears + 1);
 	if (err)
 		return err;
-	a = launch_of(job, looks, round, n, n_slots, request);
-	err = launch_layered(job->tr->dev, blocks, &a);
+	a = launch_of(band, looks, round, n, n_slots, request);
+	err = launch_layered(frame->tr->dev, blocks, &a);
 	if (!err && n_slots)
-		err = plain_trace_rays(job, looks->space, &a);
+		err = plain_trace_rays(frame, looks->space, &a);
 	if (!err && n && a.layers.mirrors)
-		err = place_leaving(job, n, &n_list);
+		err = place_leaving(frame, n, &n_list);
 	if (err || !(n_slots || n_list))
 		return err;
-	a = launch_of(job, looks, round, n, n_slots, request);
+	a = launch_of(band, looks, round, n, n_slots, request);
 	if (round & PLAIN_ENDS) /* other rounds pass on whole pixels */
 		a.request = plain_shadow_request(a.request);
-	err = launch_layered_shadow(job->tr->dev, blocks, &a);
+	err = launch_layered_shadow(frame->tr->dev, blocks, &a);
 	a.request = *request;
-	return err || !n_list ? err : follow(job, looks, a, n_list);
+	return err || !n_list ? err : follow(band, looks, a, n_list);
 }
 
 /* Make room for the state passed from one round to the next, if there are several. */
-static int reserve_kept(struct job *job, const struct looks *looks, int is_only)
+static int reserve_kept(const struct band *band, const struct looks *looks, int is_only)
 {
-	const size_t n = is_only ? 1 : (size_t)plain_columns(job->width) * PLAIN_WIDTH * job->n_rows * PLAIN_KEPT;
-	int err = launch_reserve(job->tr->dev, *looks->before, n);
+	const struct frame *frame = band->frame;
+	const size_t n = is_only ? 1 : (size_t)plain_columns(frame->width) * PLAIN_WIDTH * band->n_rows * PLAIN_KEPT;
+	int err = launch_reserve(frame->tr->dev, *looks->before, n);
 
-	return err ? err : launch_reserve(job->tr->dev, *looks->after, n);
+	return err ? err : launch_reserve(frame->tr->dev, *looks->after, n);
 }
 
 /* Use the picture that the frame starts from as the state of an earlier round. */
-static int keep_start(struct job *job, const struct looks *looks)
+static int keep_start(const struct band *band, const struct looks *looks)
 {
-	const struct scene_picture *start = job->scene->start;
-	const struct frame_buffers *b = &job->tr->buffers;
-	const size_t first = frame_first_pixel(job);
-	int err = frame_reserve(job->tr, colors, job->n_pixels);
+	const struct frame *frame = band->frame;
+	const struct scene_picture *start = frame->scene->start;
+	const struct frame_buffers *b = &frame->tr->buffers;
+	const size_t first = frame_first_pixel(band);
+	int err = frame_reserve(frame->tr, colors, band->n_pixels);
 
 	if (!err)
-		err = device_write(job->tr->dev, b->colors.buffer, 0, start->rgba + 4 * first, job->n_pixels * sizeof(uint32_t));
+		err = device_write(frame->tr->dev, b->colors.buffer, 0, start->rgba + 4 * first,
+		                   band->n_pixels * sizeof(uint32_t));
 	if (!err)
-		err = frame_upload(job->tr, depths, start->depth + first, job->n_pixels);
+		err = frame_upload(frame->tr, depths, start->depth + first, band->n_pixels);
 	return err ? err :
-	             launch_layered_start(job->tr->dev, (size_t)plain_columns(job->width) * job->n_rows,
+	             launch_layered_start(frame->tr->dev, (size_t)plain_columns(frame->width) * band->n_rows,
 	                                  LAUNCH(layered_start, .colors = b->colors, .depths = b->depths,
-	                                         .width = job->width, .height = job->n_rows, .bits = job->bits,
+	                                         .width = frame->width, .height = band->n_rows, .bits = frame->bits,
 	                                         .kept = *looks->before));
 }
 
 /* Flags of a round, except PLAIN_ENDS. */
-static uint32_t round_of(const struct job *job, int is_first)
+static uint32_t round_of(const struct frame *frame, int is_first)
 {
 	if (!is_first)
-		return plain_has_mirrors(job) ? PLAIN_MIRRORED : 0;
-	return job->scene->start ? 0 : PLAIN_BEGINS | (is_unknown(job) ? PLAIN_UNKNOWN : 0);
+		return plain_has_mirrors(frame) ? PLAIN_MIRRORED : 0;
+	return frame->scene->start ? 0 : PLAIN_BEGINS | (is_unknown(frame) ? PLAIN_UNKNOWN : 0);
 }
 
 /* Run a round with as many looks as there is room for, and draw the fragments found. is_first: first round of the band.
  * is_last: receives 1 if it was the last */
-static int draw_round(struct job *job, struct looks *looks, int is_first, int *is_last,
+static int draw_round(const struct band *band, struct looks *looks, int is_first, int *is_last,
                       const struct compose_request *request)
 {
+	const struct frame *frame = band->frame;
 	union buffer_float *const before = looks->before;
-	uint32_t n, round = round_of(job, is_first);
-	int err = look_around(job, looks);
+	uint32_t n, round = round_of(frame, is_first);
+	int err = look_around(band, looks);
 
 	if (err)
 		return err;
-	*is_last = looks->next == job->prepared.n_segments;
-	round |= *is_last && job->image ? PLAIN_ENDS : 0;
-	n = place_blocks(job);
-	err = frame_upload(job->tr, blocks, job->tr->first, plain_blocks(job->width, job->n_rows));
+	*is_last = looks->next == frame->prepared.n_segments;
+	round |= *is_last && band->pass->image ? PLAIN_ENDS : 0;
+	n = place_blocks(band);
+	err = frame_upload(frame->tr, blocks, frame->tr->first, plain_blocks(frame->width, band->n_rows));
 	if (!err)
-		err = reserve_kept(job, looks, is_first && *is_last && job->image && !job->scene->start);
-	if (!err && is_first && job->scene->start)
-		err = keep_start(job, looks);
+		err = reserve_kept(band, looks, is_first && *is_last && band->pass->image && !frame->scene->start);
+	if (!err && is_first && frame->scene->start)
+		err = keep_start(band, looks);
 	if (!err)
-		err = draw(job, looks, round, n, request);
+		err = draw(band, looks, round, n, request);
 	looks->before = looks->after;
 	looks->after = before;
 	return err;
 }
 
 /* looks: has room for clears */
-static int draw_band(struct job *job, struct looks *looks)
+static int draw_band(struct band *band, struct looks *looks)
 {
+	const struct frame *frame = band->frame;
 	struct compose_request request;
 	struct scene_clear clear;
 	int err, is_last = 0;
 
-	looks->skipped = cleared_first(job, &clear);
-	memset(job->background, 0, sizeof(job->background));
-	if (!job->scene->start)
-		memcpy(job->background, clear.color, sizeof(job->background));
+	looks->skipped = cleared_first(frame, &clear);
+	memset(band->background, 0, sizeof(band->background));
+	if (!frame->scene->start)
+		memcpy(band->background, clear.color, sizeof(band->background));
 	/* Same condition as in plain_band. */
-	err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
+	err = band->row_first + band->n_rows < frame->height && frame->tr->buffers.cleared.buffer ?
+	              0 :
+	              segment_clear_one(frame);
 	if (!err)
-		err = frame_reserve_counts(job);
+		err = frame_reserve_counts(band);
 	if (!err)
-		err = reserve_looks(job, looks);
+		err = reserve_looks(band, looks);
 	if (!err)
-		err = compose_reserve(job, &request);
+		err = compose_reserve(band, &request);
 	if (!err)
-		err = frame_reserve(job->tr, unknown, plain_columns(job->width) * job->n_rows);
+		err = frame_reserve(frame->tr, unknown, plain_columns(frame->width) * band->n_rows);
 	for (int is_first = 1; !err && !is_last; is_first = 0)
-		err = draw_round(job, looks, is_first, &is_last, &request);
+		err = draw_round(band, looks, is_first, &is_last, &request);
 	if (err)
 		return err;
-	if (!job->image)
-		return picture_take_band(job, *looks->before, clear.stencil);
-	err = compose_fetch(job, &request, job->image);
-	return err || !is_unknown(job) ? err : picture_count_rows(job);
+	if (!band->pass->image)
+		return picture_take_band(band, *looks->before, clear.stencil);
+	err = compose_fetch(band, &request);
+	return err || !is_unknown(frame) ? err : picture_count_rows(band);
 }
 
-int layered_band(struct job *job)
+int layered_band(struct band *band)
 {
-	struct frame_buffers *b = &job->tr->buffers;
+	const struct frame *frame = band->frame;
+	struct frame_buffers *b = &frame->tr->buffers;
 	struct looks looks = { .before = &b->kept_pixels, .after = &b->next_pixels,
-		               .clears = calloc(job->scene->n_clears + (size_t)1, sizeof(*looks.clears)) };
-	int err = looks.clears ? draw_band(job, &looks) :
-	                         err_report(ERR_SYSTEM, NULL, "out of memory for %u clears", job->scene->n_clears);
+		               .clears = calloc(frame->scene->n_clears + (size_t)1, sizeof(*looks.clears)) };
+	int err = looks.clears ? draw_band(band, &looks) :
+	                         err_report(ERR_SYSTEM, NULL, "out of memory for %u clears", frame->scene->n_clears);
 
 	free(looks.clears);
 	return err;

@@ -8,11 +8,11 @@
 
 #include "tracer/frame/common/frame.h"
 
-/** 1 if this pass of the frame can be drawn in this way. Needs job->prepared. */
-int layered_suits(const struct job *job);
+/** 1 if this pass of the frame can be drawn in this way. The frame must be placed. */
+int layered_suits(const struct pass *pass);
 
 /** Pixels in a band whose data stays in the caches: a column may have eight fragments. */
-uint32_t layered_pixels(const struct job *job);
+uint32_t layered_pixels(const struct frame *frame);
 
-/** Draw the band into job->image or job->picture. @return 0 or ERR_SYSTEM (reported) */
-int layered_band(struct job *job);
+/** Draw the band into pass->image or pass->picture. @return 0 or ERR_SYSTEM (reported) */
+int layered_band(struct band *band);

@@ -11,13 +11,13 @@
 #include "tracer/frame/picture/compose.h"
 
 /* 1 if only shadows, of lights without a size, and mirrors are traced. */
-static int is_lit_simply(const struct job *job)
+static int is_lit_simply(const struct frame *frame)
 {
-	const struct scene *scene = job->scene;
+	const struct scene *scene = frame->scene;
 
-	if (job->options->mode == TRACER_GL)
+	if (frame->options->mode == TRACER_GL)
 		return 1;
-	if (job->options->mode != TRACER_WHITTED || secondary_transport(job->options) != TRANSPORT_GL)
+	if (frame->options->mode != TRACER_WHITTED || secondary_transport(frame->options) != TRANSPORT_GL)
 		return 0;
 	for (uint32_t i = 0; i < scene->n_lights; i++)
 		if (pack_refuses_rays_light(&scene->lights[i]))
@@ -26,51 +26,52 @@ static int is_lit_simply(const struct job *job)
 }
 
 /* 1 if the whole picture is cleared once and not again. */
-static int is_cleared_once(const struct job *job)
+static int is_cleared_once(const struct frame *frame)
 {
 	struct scene_clear clear;
 	uint32_t n = 0;
 
-	for (uint32_t i = 0; i < job->prepared.n_segments; i++)
-		n += job->prepared.segments[i].clear_count;
-	return segment_whole_clear(job, &clear) == n;
+	for (uint32_t i = 0; i < frame->prepared.n_segments; i++)
+		n += frame->prepared.segments[i].clear_count;
+	return segment_whole_clear(frame, &clear) == n;
 }
 
-int plain_is_simple(const struct job *job)
+int plain_is_simple(const struct pass *pass)
 {
-	return !job->options->hook && job->n_passes == 1 && job->n_samples == 1 && is_lit_simply(job);
+	return !pass->frame->options->hook && pass->count == 1 && pass->n_samples == 1 && is_lit_simply(pass->frame);
 }
 
 /* Kernels with one pixel per work item support neither dome light nor programs. */
-static int is_known(const struct job *job)
+static int is_known(const struct frame *frame)
 {
-	if (frame_in_packets(job))
-		return dome_suits_plain(job);
-	return !dome_is_there(job) && !job->prepared.has_fragment_programs && !job->prepared.has_vertex_programs;
+	if (frame_in_packets(frame))
+		return dome_suits_plain(frame);
+	return !dome_is_there(frame) && !frame->prepared.has_fragment_programs && !frame->prepared.has_vertex_programs;
 }
 
-int plain_has_mirrors(const struct job *job)
+int plain_has_mirrors(const struct frame *frame)
 {
-	return job->options->mode == TRACER_WHITTED && job->prepared.has_mirrors && job->options->depth;
+	return frame->options->mode == TRACER_WHITTED && frame->prepared.has_mirrors && frame->options->depth;
 }
 
-int plain_suits(const struct job *job)
+int plain_suits(const struct pass *pass)
 {
-	const struct prepared *p = &job->prepared;
+	const struct frame *frame = pass->frame;
+	const struct prepared *p = &frame->prepared;
 	const struct segment *segment = p->segments;
 
-	if (!job->image || !plain_is_simple(job) || job->scene->start || job->scene->needs_previous ||
-	    !is_cleared_once(job) || plain_has_mirrors(job) || !is_known(job) || p->n_segments != 1 ||
+	if (!pass->image || !plain_is_simple(pass) || frame->scene->start || frame->scene->needs_previous ||
+	    !is_cleared_once(frame) || plain_has_mirrors(frame) || !is_known(frame) || p->n_segments != 1 ||
 	    segment->view == SCENE_NONE || segment->mode == CAMERA_COLUMN)
 		return 0;
 	for (uint32_t i = 0; i < segment->instance_count; i++)
-		if (pack_refuses_plain(&job->scene->materials[p->instances[segment->instance_first + i].material]))
+		if (pack_refuses_plain(&frame->scene->materials[p->instances[segment->instance_first + i].material]))
 			return 0;
 	return 1;
 }
 
 /* 1 if a pixel of a block has a fragment. x, y: the block's first pixel */
-static int has_fragment(const struct job *job, struct camera_rectangle r, uint32_t x, uint32_t y)
+static int has_fragment(const struct band *band, struct camera_rectangle r, uint32_t x, uint32_t y)
 {
 	const int32_t x1 = r.x1 < (int32_t)(x + PLAIN_WIDTH) ? r.x1 : (int32_t)(x + PLAIN_WIDTH);
 	const int32_t y1 = r.y1 < (int32_t)(y + PLAIN_ROWS) ? r.y1 : (int32_t)(y + PLAIN_ROWS);
@@ -78,31 +79,34 @@ static int has_fragment(const struct job *job, struct camera_rectangle r, uint32
 
 	for (int32_t row = r.y0 > (int32_t)y ? r.y0 : (int32_t)y; row < y1 && !n; row++)
 		for (int32_t i = r.x0 > (int32_t)x ? r.x0 : (int32_t)x; i < x1; i++)
-			n |= job->tr->counts[(uint32_t)row * job->width + (uint32_t)i];
+			n |= band->frame->tr->counts[(uint32_t)row * band->frame->width + (uint32_t)i];
 	return n != 0;
 }
 
 /* Give each block with fragments its place. r: area that fragments may be in, counted from the band's first row; n:
  * receives the number of pixels of these blocks */
-static int place_blocks(struct job *job, struct camera_rectangle r, uint32_t *n)
+static int place_blocks(const struct band *band, struct camera_rectangle r, uint32_t *n)
 {
-	struct tracer *tr = job->tr;
-	const uint32_t columns = plain_columns(job->width), blocks = plain_blocks(job->width, job->n_rows);
-	int err = frame_reserve_counts(job);
+	const struct frame *frame = band->frame;
+	struct tracer *tr = frame->tr;
+	const uint32_t columns = plain_columns(frame->width), blocks = plain_blocks(frame->width, band->n_rows);
+	int err = frame_reserve_counts(band);
 	uint32_t next = 0;
 
 	if (!err && r.x0 < r.x1)
-		err = device_read(tr->dev, tr->buffers.counts.buffer, 0, tr->counts, job->n_pixels * sizeof(*tr->counts));
+		err = device_read(tr->dev, tr->buffers.counts.buffer, 0, tr->counts,
+		                  band->n_pixels * sizeof(*tr->counts));
 	for (uint32_t i = 0; i < blocks && !err; i++)
-		tr->first[i] = has_fragment(job, r, i % columns * PLAIN_WIDTH, i / columns * PLAIN_ROWS) ? next++ : SCENE_NONE;
+		tr->first[i] = has_fragment(band, r, i % columns * PLAIN_WIDTH, i / columns * PLAIN_ROWS) ? next++ :
+		                                                                                            SCENE_NONE;
 	*n = (next ? next : 1) * PLAIN_WIDTH * PLAIN_ROWS;
 	return err ? err : frame_upload(tr, blocks, tr->first, blocks);
 }
 
 /* Make room for the kernels' results for n fragments and their rays. */
-static int reserve(struct job *job, uint32_t n, uint32_t n_slots)
+static int reserve(const struct frame *frame, uint32_t n, uint32_t n_slots)
 {
-	struct tracer *tr = job->tr;
+	struct tracer *tr = frame->tr;
 	int err = frame_reserve(tr, fragments, n);
 
 	if (!err)
@@ -113,7 +117,7 @@ static int reserve(struct job *job, uint32_t n, uint32_t n_slots)
 		err = frame_reserve(tr, dome_places, 1);
 	if (!err)
 		err = frame_reserve(tr, layer_clears, 1);
-	return err ? err : secondary_reserve_rays(job, n_slots ? (size_t)n * n_slots : 1, &tr->buffers.visibility);
+	return err ? err : secondary_reserve_rays(frame, n_slots ? (size_t)n * n_slots : 1, &tr->buffers.visibility);
 }
 
 struct compose_request plain_shadow_request(struct compose_request r)
@@ -125,15 +129,16 @@ struct compose_request plain_shadow_request(struct compose_request r)
 	return r;
 }
 
-int plain_trace_rays(struct job *job, const struct accel_space *space, const struct plain_launch *a)
+int plain_trace_rays(const struct frame *frame, const struct accel_space *space, const struct plain_launch *a)
 {
-	return secondary_ask(job, space, &(const struct light_rays){ a->rays, a->visibility, a->n * a->n_slots, 1 });
+	return secondary_ask(frame, space, &(const struct light_rays){ a->rays, a->visibility, a->n * a->n_slots, 1 });
 }
 
-struct plain_launch plain_launch_of(const struct job *job, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
+struct plain_launch plain_launch_of(const struct band *band, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
                                     union buffer_float visibility, const struct compose_request *request)
 {
-	const struct frame_buffers *b = &job->tr->buffers;
+	const struct frame *frame = band->frame;
+	const struct frame_buffers *b = &frame->tr->buffers;
 	const struct scene_dome none = { .reach = 0 };
 	const struct layers_launch *one = LAUNCH(
 		layers, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .round = 0,
@@ -141,22 +146,22 @@ struct plain_launch plain_launch_of(const struct job *job, struct camera_rectang
 		.unknown = b->counts, .mirrors = 0, .leaving = b->counts, .list_first = b->counts, .list = b->fragments,
 		.list_pixels = b->pixels, .list_shaded = b->shaded);
 
-	return *LAUNCH(plain, .tables = frame_tables(job->tr), .views = b->views, .windows = b->windows, .sparse = b->sparse,
-	               .rectangle = segment_in_buffers(job, r), .width = job->width, .height = job->height,
-	               .first_pixel = frame_first_pixel(job), .bits = job->bits, .cleared = b->cleared, .request = *request,
-	               .visibility = visibility, .n_slots = n_slots, .blocks = b->blocks, .n = n,
-	               .fragments = b->fragments, .pixels = b->pixels, .shaded = b->shaded, .rays = b->rays,
-	               .programs = b->programs, .dome = none, .directions = visibility, .samples = 0,
-	               .places = b->dome_places, .looks = b->rays,
-	               .factors = visibility, .layers = *one, .halves = b->halves, .floats = b->floats);
+	return *LAUNCH(plain, .tables = frame_tables(frame->tr), .views = b->views, .windows = b->windows,
+	               .sparse = b->sparse, .rectangle = segment_in_buffers(band, r), .width = frame->width,
+	               .height = frame->height, .first_pixel = frame_first_pixel(band), .bits = frame->bits,
+	               .cleared = b->cleared, .request = *request, .visibility = visibility, .n_slots = n_slots,
+	               .blocks = b->blocks, .n = n, .fragments = b->fragments, .pixels = b->pixels, .shaded = b->shaded,
+	               .rays = b->rays, .programs = b->programs, .dome = none, .directions = visibility, .samples = 0,
+	               .places = b->dome_places, .looks = b->rays, .factors = visibility, .layers = *one,
+	               .halves = b->halves, .floats = b->floats);
 }
 
 /* The same launch with dome light from `samples` directions. */
-static struct plain_launch in_dome(const struct job *job, struct plain_launch a, uint32_t samples)
+static struct plain_launch in_dome(const struct frame *frame, struct plain_launch a, uint32_t samples)
 {
-	const struct frame_buffers *b = &job->tr->buffers;
+	const struct frame_buffers *b = &frame->tr->buffers;
 
-	a.dome = job->scene->dome;
+	a.dome = frame->scene->dome;
 	a.directions = b->dome_directions;
 	a.samples = samples;
 	a.looks = b->dome_rays;
@@ -165,21 +170,21 @@ static struct plain_launch in_dome(const struct job *job, struct plain_launch a,
 }
 
 /* Compute colours by programs, for plain, before rays to lights are traced (0), or for plain_shadow. */
-static int run_programs(struct job *job, struct plain_launch a, uint32_t blocks, uint32_t n_slots)
+static int run_programs(const struct frame *frame, struct plain_launch a, uint32_t blocks, uint32_t n_slots)
 {
-	if (!(job->prepared.has_fragment_programs || (n_slots && job->prepared.has_vertex_programs)))
+	if (!(frame->prepared.has_fragment_programs || (n_slots && frame->prepared.has_vertex_programs)))
 		return 0;
 	a.n_slots = n_slots;
-	return launch_plain_program(job->tr->dev, blocks, &a);
+	return launch_plain_program(frame->tr->dev, blocks, &a);
 }
 
 /* Run plain and plain_shadow, or their steps. */
-static int run_plain(const struct job *job, const struct plain_launch *a, uint32_t blocks)
+static int run_plain(const struct frame *frame, const struct plain_launch *a, uint32_t blocks)
 {
-	struct device *dev = job->tr->dev;
+	struct device *dev = frame->tr->dev;
 	int err;
 
-	if (frame_in_packets(job))
+	if (frame_in_packets(frame))
 		return launch_plain(dev, blocks, a);
 	err = launch_plain_color(dev, a->n, a);
 	if (!err)
@@ -187,113 +192,124 @@ static int run_plain(const struct job *job, const struct plain_launch *a, uint32
 	return err ? err : launch_plain_show(dev, a->n, a);
 }
 
-static int run_plain_shadow(const struct job *job, const struct plain_launch *a, uint32_t blocks)
+static int run_plain_shadow(const struct frame *frame, const struct plain_launch *a, uint32_t blocks)
 {
-	struct device *dev = job->tr->dev;
+	struct device *dev = frame->tr->dev;
 	int err;
 
-	if (frame_in_packets(job))
+	if (frame_in_packets(frame))
 		return launch_plain_shadow(dev, blocks, a);
 	err = launch_plain_color_dimmed(dev, a->n, a);
 	return err ? err : launch_plain_show_dimmed(dev, a->n, a);
 }
 
 /* Draw everything except the effect of other surfaces on light, trace rays to lights, then draw that effect. */
-static int draw_lit(struct job *job, const struct accel_space *space, struct plain_launch a, uint32_t blocks)
+static int draw_lit(const struct frame *frame, const struct accel_space *space, struct plain_launch a, uint32_t blocks)
 {
 	const uint32_t n_slots = a.n_slots;
-	int err = run_programs(job, a, blocks, 0);
+	int err = run_programs(frame, a, blocks, 0);
 
 	if (!err)
-		err = run_plain(job, &a, blocks);
+		err = run_plain(frame, &a, blocks);
 	if (!err && n_slots)
-		err = plain_trace_rays(job, space, &a);
+		err = plain_trace_rays(frame, space, &a);
 	if (!err && n_slots)
-		err = run_programs(job, a, blocks, n_slots);
+		err = run_programs(frame, a, blocks, n_slots);
 	if (err || !n_slots)
 		return err;
 	a.request = plain_shadow_request(a.request);
-	return run_plain_shadow(job, &a, blocks);
+	return run_plain_shadow(frame, &a, blocks);
 }
 
 /* The same with dome light: all planes are drawn at the end. */
-static int draw_in_dome(struct job *job, const struct accel_space *space, struct plain_launch a, uint32_t blocks)
+static int draw_in_dome(const struct band *band, const struct accel_space *space, struct plain_launch a,
+                        uint32_t blocks)
 {
-	int err = launch_plain_dome(job->tr->dev, blocks, &a);
+	const struct frame *frame = band->frame;
+	int err = launch_plain_dome(frame->tr->dev, blocks, &a);
 
 	if (!err)
-		err = dome_light_plain(job, space, &a);
+		err = dome_light_plain(band, space, &a);
 	if (!err && a.n_slots)
-		err = plain_trace_rays(job, space, &a);
-	return err ? err : launch_plain_shadow(job->tr->dev, blocks, &a);
+		err = plain_trace_rays(frame, space, &a);
+	return err ? err : launch_plain_shadow(frame->tr->dev, blocks, &a);
 }
 
 /* 1 if one kernel draws a plain frame entirely: there are only camera rays, and no fragment programs. */
-static int is_whole(const struct job *job)
+static int is_whole(const struct frame *frame)
 {
-	return frame_in_packets(job) && !job->prepared.has_fragment_programs &&
-	       (job->options->mode == TRACER_GL || !(job->prepared.n_light_slots || dome_is_there(job)));
+	return frame_in_packets(frame) && !frame->prepared.has_fragment_programs &&
+	       (frame->options->mode == TRACER_GL || !(frame->prepared.n_light_slots || dome_is_there(frame)));
 }
 
 /* Draw without secondary rays: the fragments found by the camera go directly into the planes. r: area of the view */
-static int draw_whole(struct job *job, struct camera_rectangle r, const struct compose_request *request)
+static int draw_whole(const struct band *band, struct camera_rectangle r, const struct compose_request *request)
 {
-	const struct frame_buffers *b = &job->tr->buffers;
-	const struct traverse_trees *t = &job->tr->trees;
-	const struct camera_rectangle band = { 0, (int32_t)job->row_first, (int32_t)job->width,
-		                               (int32_t)(job->row_first + job->n_rows) };
-	int err = reserve(job, job->n_pixels, 0);
+	const struct frame *frame = band->frame;
+	const struct frame_buffers *b = &frame->tr->buffers;
+	const struct traverse_trees *t = &frame->tr->trees;
+	const struct camera_rectangle whole = { 0, (int32_t)band->row_first, (int32_t)frame->width,
+		                               (int32_t)(band->row_first + band->n_rows) };
+	int err = reserve(frame, band->n_pixels, 0);
 
 	if (err)
 		return err;
-	return launch_plain_whole(job->tr->dev, camera_packet_items(band),
-	                          LAUNCH(plain_whole, .pass = segment_camera_pass(job, job->prepared.segments, r, 0),
+	return launch_plain_whole(frame->tr->dev, camera_packet_items(whole),
+	                          LAUNCH(plain_whole, .pass = segment_camera_pass(band, frame->prepared.segments, r, 0),
 	                                 .instances = t->instances, .top = t->top2, .instance_list = t->instance_list,
-	                                 .nodes = t->nodes8, .triangles = t->faces8, .tables = frame_tables(job->tr),
-	                                 .bits = job->bits, .cleared = b->cleared, .request = *request,
+	                                 .nodes = t->nodes8, .triangles = t->faces8, .tables = frame_tables(frame->tr),
+	                                 .bits = frame->bits, .cleared = b->cleared, .request = *request,
 	                                 .alone = b->fragments, .pixels = b->pixels, .shaded = b->shaded,
 	                                 .halves = b->halves, .floats = b->floats));
 }
 
 /* Draw in steps: camera rays, then everything that depends on secondary rays and programs. */
-static int draw_in_steps(struct job *job, const struct accel_space *space, struct camera_rectangle r, uint32_t n_slots,
-                         const struct compose_request *request)
+static int draw_in_steps(const struct band *band, const struct accel_space *space, struct camera_rectangle r,
+                         uint32_t n_slots, const struct compose_request *request)
 {
-	const struct segment *segment = job->prepared.segments;
-	const uint32_t blocks = plain_blocks(job->width, job->n_rows);
+	const struct frame *frame = band->frame;
+	const struct segment *segment = frame->prepared.segments;
+	const uint32_t blocks = plain_blocks(frame->width, band->n_rows);
 	uint32_t n, samples = 0; /* n: places of pixels; samples: dome rays of each */
 	struct plain_launch a;
-	int err = r.x0 < r.x1 ? segment_trace_camera(job, segment, r, 0) : 0;
+	int err = r.x0 < r.x1 ? segment_trace_camera(band, segment, r, 0) : 0;
 
 	/* Kernels with one pixel per work item have places for all pixels, so there is no wait for the camera pass. */
 	n = blocks * PLAIN_WIDTH * PLAIN_ROWS;
 	if (!err)
-		err = frame_in_packets(job) ? place_blocks(job, segment_in_buffers(job, r), &n) : frame_reserve(job->tr, blocks, 1);
+		err = frame_in_packets(frame) ? place_blocks(band, segment_in_buffers(band, r), &n) :
+		                                frame_reserve(frame->tr, blocks, 1);
 	if (!err)
-		err = reserve(job, n, n_slots);
-	if (!err && space && dome_is_there(job))
-		err = dome_prepare_plain(job, n, &samples);
+		err = reserve(frame, n, n_slots);
+	if (!err && space && dome_is_there(frame))
+		err = dome_prepare_plain(frame, n, &samples);
 	if (err)
 		return err;
-	a = plain_launch_of(job, r, n, n_slots, job->tr->buffers.visibility, request);
-	return samples ? draw_in_dome(job, space, in_dome(job, a, samples), blocks) : draw_lit(job, space, a, blocks);
+	a = plain_launch_of(band, r, n, n_slots, frame->tr->buffers.visibility, request);
+	return samples ? draw_in_dome(band, space, in_dome(frame, a, samples), blocks) :
+	                 draw_lit(frame, space, a, blocks);
 }
 
-int plain_band(struct job *job)
+int plain_band(struct band *band)
 {
-	const struct segment *segment = job->prepared.segments;
-	const struct accel_space *space = job->options->mode == TRACER_GL ? NULL : secondary_space(job, segment->view, 0);
-	const struct camera_rectangle r = segment_rectangle(job, job->prepared.views[segment->view].scissor);
-	const uint32_t n_slots = space ? job->prepared.n_light_slots : 0;
+	const struct frame *frame = band->frame;
+	const struct segment *segment = frame->prepared.segments;
+	const struct accel_space *space = frame->options->mode == TRACER_GL ? NULL :
+	                                                                      secondary_space(frame, segment->view, 0);
+	const struct camera_rectangle r = segment_rectangle(band, frame->prepared.views[segment->view].scissor);
+	const uint32_t n_slots = space ? frame->prepared.n_light_slots : 0;
 	struct compose_request request;
 	/* The top band is drawn first. A device that ran out of memory may have released the buffer since. */
-	int err = job->row_first + job->n_rows < job->height && job->tr->buffers.cleared.buffer ? 0 : segment_clear_one(job);
+	int err = band->row_first + band->n_rows < frame->height && frame->tr->buffers.cleared.buffer ?
+	                  0 :
+	                  segment_clear_one(frame);
 
 	if (!err)
-		err = segment_reserve(job, 1);
+		err = segment_reserve(band, 1);
 	if (!err)
-		err = compose_reserve(job, &request);
+		err = compose_reserve(band, &request);
 	if (!err)
-		err = is_whole(job) ? draw_whole(job, r, &request) : draw_in_steps(job, space, r, n_slots, &request);
-	return err ? err : compose_fetch(job, &request, job->image);
+		err = is_whole(frame) ? draw_whole(band, r, &request) :
+		                        draw_in_steps(band, space, r, n_slots, &request);
+	return err ? err : compose_fetch(band, &request);
 }

@@ -6,26 +6,26 @@
 
 #include "tracer/frame/common/frame.h"
 
-/** 1 if this pass of the frame is plain. Needs job->prepared. */
-int plain_suits(const struct job *job);
+/** 1 if this pass of the frame is plain. The frame must be placed. */
+int plain_suits(const struct pass *pass);
 
-/** Draw the band into job->image. @return 0 or ERR_SYSTEM (reported) */
-int plain_band(struct job *job);
+/** Draw the band into pass->image. @return 0 or ERR_SYSTEM (reported) */
+int plain_band(struct band *band);
 
 /* --- For layered.c, which draws in the same way ------------------------------------------------------------------ */
 
 /** 1 if a frame meets the conditions of both ways: one pass, lights without a size. */
-int plain_is_simple(const struct job *job);
+int plain_is_simple(const struct pass *pass);
 
 /** 1 if there are surfaces that reflect or transmit light. */
-int plain_has_mirrors(const struct job *job);
+int plain_has_mirrors(const struct frame *frame);
 
 /** Arguments of both ways, without dome light. r: rectangle of the band; visibility: receives that of lights */
-struct plain_launch plain_launch_of(const struct job *job, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
+struct plain_launch plain_launch_of(const struct band *band, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
                                     union buffer_float visibility, const struct compose_request *request);
 
 /** Trace the rays to lights that the kernels of such a launch made. */
-int plain_trace_rays(struct job *job, const struct accel_space *space, const struct plain_launch *a);
+int plain_trace_rays(const struct frame *frame, const struct accel_space *space, const struct plain_launch *a);
 
 /** Restrict a request to the planes that shadows change. */
 struct compose_request plain_shadow_request(struct compose_request r);

@@ -4,8 +4,8 @@
 #include "tracer/frame/common/frame.h"
 
 /** Always 1. */
-int staged_suits(const struct job *job);
+int staged_suits(const struct pass *pass);
 
-/** Draw the band into job->image or job->picture, or add it to the sums of earlier passes. @return 0, ERR_MEMORY or
+/** Draw the band into pass->image or pass->picture, or add it to the sums of earlier passes. @return 0, ERR_MEMORY or
  * ERR_SYSTEM (reported) */
-int staged_band(struct job *job);
+int staged_band(struct band *band);

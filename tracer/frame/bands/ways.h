@@ -4,15 +4,15 @@
 #include "tracer/frame/common/frame.h"
 
 struct way {
-	int (*suits)(const struct job *job); /* 1 if it can draw this pass of the frame; needs job->prepared */
-	/* Draws the band into job->image or job->picture, or adds it to the sums. @return 0, ERR_MEMORY or ERR_SYSTEM
+	int (*suits)(const struct pass *pass); /* 1 if it can draw this pass of a placed frame */
+	/* Draws the band into pass->image or pass->picture, or adds it to the sums. @return 0, ERR_MEMORY or ERR_SYSTEM
 	 * (reported) */
-	int (*draw)(struct job *job);
-	uint32_t (*pixels)(const struct job *job); /* pixels in a band, unless options or memory say otherwise */
+	int (*draw)(struct band *band);
+	uint32_t (*pixels)(const struct frame *frame); /* pixels in a band, unless options or memory say otherwise */
 };
 
 /** The quickest way that suits this pass of the frame. */
-const struct way *way_of(const struct job *job);
+const struct way *way_of(const struct pass *pass);
 
 /** Number of rows in a band, in whole tiles. */
-uint32_t way_rows(const struct way *way, const struct job *job);
+uint32_t way_rows(const struct way *way, const struct frame *frame);

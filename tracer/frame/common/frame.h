@@ -72,11 +72,15 @@ struct tracer {
 
 struct expanded;
 
-/* One frame in progress. */
-struct job {
+/* A scene on its way to a picture: what stays the same in all passes until it is placed again. */
+struct frame {
 	struct tracer *tr;
 	const struct scene *scene;
 	const struct tracer_options *options;
+	uint32_t width, height;
+	uint32_t bits;     /* bits of the frame buffer: see pixel_depth_bits */
+	uint32_t is_placed; /* 1: state, vertices and trees of the previous pass are on the device; only the picture has
+	                     * to be moved */
 	struct prepared prepared;
 	struct expanded *expanded;       /* [n_instances]: lines and points as quads; empty for others */
 	const struct scene_mesh **extra; /* [n_instances]: meshes of the expanded instances, or NULL */
@@ -87,7 +91,7 @@ struct job {
 		float emitted; /* total emission, as in kernels.h */
 	} *emissions; /* [n_spaces] in mode path, else NULL */
 	const struct segment *hooked; /* first segment of the eye space that hooks' rays are in; NULL: none */
-	struct job_objects { /* objects that a hook's intersection replaces: hook_objects.h */
+	struct frame_objects { /* objects that a hook's intersection replaces: hook_objects.h */
 		struct hook_object *list;
 		uint32_t n, space;     /* space: the eye space of the objects */
 		uint32_t room;         /* most rays of one kind that may hit objects */
@@ -95,22 +99,33 @@ struct job {
 		uint32_t *index;       /* indices of these triangles */
 		struct scene_mesh mesh;
 	} objects;
-	uint32_t width, height;
-	uint32_t row_first, n_rows; /* the band being drawn; buffers of pixels hold its pixels, bottom row first */
-	uint32_t n_pixels;          /* number of pixels in the band */
-	uint32_t bits;              /* bits of the frame buffer: see pixel_depth_bits */
-	uint32_t n_samples; /* samples of a pixel in this pass: 1 or SCENE_SAMPLES */
-	float background[4];
-	uint32_t pass, n_passes; /* current pass and number of passes: each traces one sample per pixel; pass 0 is the
-	                          * pixel centre and is traced last */
-	uint32_t is_first;       /* 1: first of the passes to be summed; there are no sums yet */
-	uint32_t is_placed; /* 1: state, vertices and trees of the previous pass are on the device; only the picture has
-	                     * to be moved */
-	uint32_t turn;           /* selects the pixels that take part in the other passes (sample_takes_part) */
-	struct tracer_added added;      /* counts of the picture's bands so far */
-	uint64_t unknown; /* pixels so far that show or tested unknown contents from before the scene */
-	struct image *image;            /* image or picture receives the bands of the last pass; the other is NULL */
+};
+
+/* Counts from drawing a scene. */
+struct drawn {
+	uint64_t unknown;               /* pixels that show or tested unknown contents from before the scene */
+	struct tracer_added added;      /* counts of the picture's bands */
+	struct tracer_undrawn undrawn;
+};
+
+/* One sample of all pixels. */
+struct pass {
+	const struct frame *frame;
+	uint32_t number, count; /* pass 0 is the pixel centre and is traced last */
+	uint32_t turn;          /* selects the pixels that take part in the other passes (sample_takes_part) */
+	uint32_t is_first;      /* 1: first of the passes to be summed; there are no sums yet */
+	uint32_t n_samples;     /* samples of a pixel in this pass: 1 or SCENE_SAMPLES */
+	struct image *image;    /* image or picture receives the bands of the last pass; the other is NULL */
 	struct scene_picture *picture;
+	struct drawn *drawn;
+};
+
+/* Rows of a frame that are drawn at once. Buffers of pixels hold its pixels, bottom row first. */
+struct band {
+	const struct frame *frame;
+	const struct pass *pass;
+	uint32_t row_first, n_rows, n_pixels;
+	float background[4]; /* the last colour that pixels were cleared to */
 };
 
 /* Reserve `count` elements of one of the tracer's buffers, by name; reserve and fill it. */
@@ -121,14 +136,14 @@ struct job {
 struct tables_launch frame_tables(const struct tracer *tr);
 
 /** Index of the band's first pixel in the frame. */
-uint32_t frame_first_pixel(const struct job *job);
+uint32_t frame_first_pixel(const struct band *band);
 
 /** 1 if kernels process packets of rays and fragments; 0: one per work item. */
-int frame_in_packets(const struct job *job);
+int frame_in_packets(const struct frame *frame);
 
 /** The buffer of one sample of the pixels; the frame itself if they have only one. */
-union buffer_frame_pixel *frame_sample(const struct job *job, uint32_t sample);
+union buffer_frame_pixel *frame_sample(const struct pass *pass, uint32_t sample);
 
 /** Make room for one word per pixel of the band in tracer.counts and tracer.first. @return 0 or ERR_SYSTEM
  * (reported) */
-int frame_reserve_counts(struct job *job);
+int frame_reserve_counts(const struct band *band);

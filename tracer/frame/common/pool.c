@@ -85,7 +85,8 @@ static int add_item(struct pool *pool, struct device *dev, struct stage *stage, 
 		stage->room = item->words > STAGE_WORDS ? item->words : STAGE_WORDS;
 		stage->words = malloc(stage->room * sizeof(*stage->words));
 		if (!stage->words)
-			return err_report(ERR_SYSTEM, NULL, "out of memory: %zu bytes", stage->room * sizeof(*stage->words));
+			return err_report(ERR_SYSTEM, NULL, "out of memory: %zu bytes",
+			                  stage->room * sizeof(*stage->words));
 	}
 	fill(item->object, stage->words + stage->n);
 	stage->n += item->words;

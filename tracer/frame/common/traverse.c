@@ -58,7 +58,8 @@ int traverse_camera(struct device *dev, enum kernel kernel, const struct travers
 	case KERNEL_camera_wide:
 		return launch_camera_wide(dev, camera_wide_items(r), CAMERA(camera_wide, nodes2, triangles));
 	case KERNEL_camera_compressed:
-		return launch_camera_compressed(dev, camera_wide_items(r), CAMERA(camera_compressed, nodes8c, triangles8c));
+		return launch_camera_compressed(dev, camera_wide_items(r),
+		                                CAMERA(camera_compressed, nodes8c, triangles8c));
 	default:
 		return no_such_kernel(kernel);
 	}
@@ -99,7 +100,8 @@ int traverse_rays(struct device *dev, enum kernel kernel, const struct traverse_
 	case KERNEL_intersect_binary:
 		return launch_intersect_binary(dev, r->n, INTERSECT(intersect_binary, top2, nodes2, triangles));
 	case KERNEL_intersect_compressed:
-		return launch_intersect_compressed(dev, r->n, INTERSECT(intersect_compressed, top2, nodes8c, triangles8c));
+		return launch_intersect_compressed(dev, r->n,
+		                                   INTERSECT(intersect_compressed, top2, nodes8c, triangles8c));
 	default:
 		return no_such_kernel(kernel);
 	}

@@ -12,20 +12,20 @@
 #define ROOM 131072u
 #define ROOM_ROWS 64u
 
-static const struct scene_mesh *mesh_of(const struct job *job, uint32_t instance)
+static const struct scene_mesh *mesh_of(const struct frame *frame, uint32_t instance)
 {
-	return job->scene->meshes[job->scene->instances[job->prepared.instances[instance].scene_instance].mesh];
+	return frame->scene->meshes[frame->scene->instances[frame->prepared.instances[instance].scene_instance].mesh];
 }
 
 /* Describe an instance that the hook may make an object. @return 0: it may not */
-static int describe(const struct job *job, uint32_t i, struct hook_object *out)
+static int describe(const struct frame *frame, uint32_t i, struct hook_object *out)
 {
-	const struct instance *instance = &job->prepared.instances[i];
-	const struct scene_mesh *mesh = mesh_of(job, i);
+	const struct instance *instance = &frame->prepared.instances[i];
+	const struct scene_mesh *mesh = mesh_of(frame, i);
 
 	if (!(instance->flags & INSTANCE_SECONDARY) ||
 	    instance->flags & (INSTANCE_BAKED | INSTANCE_SKY | INSTANCE_SCREEN) || mesh->vertex_count == 0 ||
-	    job->prepared.scene_views[instance->view].space != job->objects.space)
+	    frame->prepared.scene_views[instance->view].space != frame->objects.space)
 		return 0;
 	*out = (struct hook_object){ .instance = i, .material = instance->material, .draw = instance->draw };
 	memcpy(out->obj_from_eye, instance->obj_from_eye, sizeof(out->obj_from_eye));
@@ -42,24 +42,24 @@ static int describe(const struct job *job, uint32_t i, struct hook_object *out)
 	return 1;
 }
 
-static int ask_bounds(struct job *job)
+static int ask_bounds(struct frame *frame)
 {
-	struct tracer *tr = job->tr;
-	struct job_objects *o = &job->objects;
+	struct tracer *tr = frame->tr;
+	struct frame_objects *o = &frame->objects;
 	int err = frame_upload(tr, objects, o->list, o->n);
 
 	if (!err)
 		err = launch_hook_bounds(tr->dev, o->n,
 		                         LAUNCH(hook_bounds, .parameters = tr->buffers.parameters,
-		                                .words = job->options->hook->words, .n = o->n,
+		                                .words = frame->options->hook->words, .n = o->n,
 		                                .objects = tr->buffers.objects));
 	return err ? err : device_read(tr->dev, tr->buffers.objects.buffer, 0, o->list, o->n * sizeof(*o->list));
 }
 
 /* Keep the objects that have a box, and make rays ignore their triangles. */
-static void keep_bounded(struct job *job)
+static void keep_bounded(struct frame *frame)
 {
-	struct job_objects *o = &job->objects;
+	struct frame_objects *o = &frame->objects;
 	const uint32_t n = o->n;
 
 	o->n = 0;
@@ -68,16 +68,17 @@ static void keep_bounded(struct job *job)
 		int is_there = 1;
 
 		for (int a = 0; a < 3; a++)
-			is_there &= isfinite(object.lower[a]) && isfinite(object.upper[a]) && object.lower[a] <= object.upper[a];
+			is_there &= isfinite(object.lower[a]) && isfinite(object.upper[a]) &&
+			            object.lower[a] <= object.upper[a];
 		if (!is_there)
 			continue;
-		job->prepared.instances[object.instance].flags &= ~INSTANCE_SECONDARY;
+		frame->prepared.instances[object.instance].flags &= ~INSTANCE_SECONDARY;
 		o->list[o->n++] = object;
 	}
 }
 
 /* Make the mesh of slots: each has a triangle with three separate vertices. */
-static int make_mesh(struct job_objects *o, uint32_t width)
+static int make_mesh(struct frame_objects *o, uint32_t width)
 {
 	uint32_t n;
 
@@ -98,10 +99,10 @@ static int make_mesh(struct job_objects *o, uint32_t width)
 
 /* Upload separate current attributes for objects: an object without vertex arrays has the colour of its first
  * vertex. */
-static int upload_currents(struct job *job)
+static int upload_currents(const struct frame *frame)
 {
-	const struct scene *scene = job->scene;
-	const struct job_objects *o = &job->objects;
+	const struct scene *scene = frame->scene;
+	const struct frame_objects *o = &frame->objects;
 	struct scene_current *currents = malloc((scene->n_currents + (size_t)o->n) * sizeof(*currents));
 	int err;
 
@@ -109,75 +110,75 @@ static int upload_currents(struct job *job)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	memcpy(currents, scene->currents, scene->n_currents * sizeof(*currents));
 	for (uint32_t i = 0; i < o->n; i++) {
-		const struct scene_mesh *mesh = mesh_of(job, o->list[i].instance);
+		const struct scene_mesh *mesh = mesh_of(frame, o->list[i].instance);
 		struct scene_current *c = &currents[scene->n_currents + i];
 
-		*c = scene->currents[job->prepared.geometries[o->list[i].instance].current];
+		*c = scene->currents[frame->prepared.geometries[o->list[i].instance].current];
 		if (mesh->color)
 			memcpy(c->color, mesh->color, sizeof(c->color));
 		if (mesh->secondary)
 			memcpy(c->secondary, mesh->secondary, sizeof(c->secondary));
 	}
-	err = frame_upload(job->tr, currents, currents, scene->n_currents + o->n);
+	err = frame_upload(frame->tr, currents, currents, scene->n_currents + o->n);
 	free(currents);
 	return err;
 }
 
-int hook_objects_find(struct job *job)
+int hook_objects_find(struct frame *frame)
 {
-	const struct segment *segment = hooks_has(job, HOOK_INTERSECTION) ? job->hooked : NULL;
-	struct job_objects *o = &job->objects;
+	const struct segment *segment = hooks_has(frame, HOOK_INTERSECTION) ? frame->hooked : NULL;
+	struct frame_objects *o = &frame->objects;
 	int err;
 
 	if (!segment)
 		return 0;
-	o->space = job->prepared.scene_views[segment->view].space;
-	o->list = calloc(job->prepared.n_instances, sizeof(*o->list));
+	o->space = frame->prepared.scene_views[segment->view].space;
+	o->list = calloc(frame->prepared.n_instances, sizeof(*o->list));
 	if (!o->list)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	for (uint32_t i = 0; i < job->prepared.n_instances; i++)
-		o->n += (uint32_t)describe(job, i, &o->list[o->n]);
-	err = o->n ? ask_bounds(job) : 0;
+	for (uint32_t i = 0; i < frame->prepared.n_instances; i++)
+		o->n += (uint32_t)describe(frame, i, &o->list[o->n]);
+	err = o->n ? ask_bounds(frame) : 0;
 	if (!err)
-		keep_bounded(job);
+		keep_bounded(frame);
 	if (err || !o->n)
 		return err;
-	err = make_mesh(o, job->width);
+	err = make_mesh(o, frame->width);
 	if (!err)
-		err = frame_upload(job->tr, objects, o->list, o->n);
-	return err ? err : upload_currents(job);
+		err = frame_upload(frame->tr, objects, o->list, o->n);
+	return err ? err : upload_currents(frame);
 }
 
-void hook_objects_forget(struct job *job)
+void hook_objects_forget(struct frame *frame)
 {
-	free(job->objects.list);
-	free(job->objects.index);
-	job->objects = (struct job_objects){ .n = 0 };
+	free(frame->objects.list);
+	free(frame->objects.index);
+	frame->objects = (struct frame_objects){ .n = 0 };
 }
 
-size_t hook_objects_vertices(const struct job *job)
+size_t hook_objects_vertices(const struct frame *frame)
 {
-	return job->objects.n ? job->objects.mesh.vertex_count : 0;
+	return frame->objects.n ? frame->objects.mesh.vertex_count : 0;
 }
 
-size_t hook_objects_texcoords(const struct job *job)
+size_t hook_objects_texcoords(const struct frame *frame)
 {
-	const struct job_objects *o = &job->objects;
+	const struct frame_objects *o = &frame->objects;
 	size_t most = 0;
 
 	for (uint32_t i = 0; i < o->n; i++)
-		if (job->scene->materials[o->list[i].material].unit_count > most)
-			most = job->scene->materials[o->list[i].material].unit_count;
-	return most * hook_objects_vertices(job);
+		if (frame->scene->materials[o->list[i].material].unit_count > most)
+			most = frame->scene->materials[o->list[i].material].unit_count;
+	return most * hook_objects_vertices(frame);
 }
 
-void hook_objects_stand(struct job *job, uint32_t object, uint32_t index)
+void hook_objects_stand(struct frame *frame, uint32_t object, uint32_t index)
 {
-	const struct job_objects *o = &job->objects;
-	struct geometry *g = &job->prepared.geometries[o->list[object].instance];
+	const struct frame_objects *o = &frame->objects;
+	struct geometry *g = &frame->prepared.geometries[o->list[object].instance];
 
 	g->attributes = 0;
-	g->current = job->scene->n_currents + object;
+	g->current = frame->scene->n_currents + object;
 	g->crease = g->primitive_draw = SCENE_NONE;
 	g->index = index;
 	g->vertex_first = o->vertex_first;
@@ -185,34 +186,34 @@ void hook_objects_stand(struct job *job, uint32_t object, uint32_t index)
 	g->texcoord_first = o->texcoord_first;
 }
 
-int hook_objects_in(const struct job *job, const struct accel_space *space)
+int hook_objects_in(const struct frame *frame, const struct accel_space *space)
 {
-	return job->objects.n && !space->sky && space->space == job->objects.space;
+	return frame->objects.n && !space->sky && space->space == frame->objects.space;
 }
 
-int hook_objects_intersect(struct job *job, const struct traverse_rays *rays, enum hook_rays_of whose)
+int hook_objects_intersect(const struct frame *frame, const struct traverse_rays *rays, enum hook_rays_of whose)
 {
-	struct tracer *tr = job->tr;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
 
-	if (rays->n > job->objects.room)
+	if (rays->n > frame->objects.room)
 		return ERR_MEMORY;
 	return launch_hook_intersect(
 		tr->dev, rays->n,
 		LAUNCH(hook_intersect, .tables = frame_tables(tr), .views = b->views, .objects = b->objects,
-	               .n_objects = job->objects.n, .rays = rays->rays, .parameters = b->parameters,
-	               .words = job->options->hook->words, .alone = !rays->space->n_nodes,
-	               .first_slot = (uint32_t)whose * job->objects.room, .n = rays->n, .hits = rays->hits,
+	               .n_objects = frame->objects.n, .rays = rays->rays, .parameters = b->parameters,
+	               .words = frame->options->hook->words, .alone = !rays->space->n_nodes,
+	               .first_slot = (uint32_t)whose * frame->objects.room, .n = rays->n, .hits = rays->hits,
 	               .made = b->vertices, .made_coords = b->texcoords, .windows = b->windows));
 }
 
-int hook_objects_occlude(struct job *job, const struct traverse_rays *rays)
+int hook_objects_occlude(const struct frame *frame, const struct traverse_rays *rays)
 {
-	const struct frame_buffers *b = &job->tr->buffers;
+	const struct frame_buffers *b = &frame->tr->buffers;
 
-	return launch_hook_occlude(job->tr->dev, rays->n,
-	                           LAUNCH(hook_occlude, .objects = b->objects, .n_objects = job->objects.n,
+	return launch_hook_occlude(frame->tr->dev, rays->n,
+	                           LAUNCH(hook_occlude, .objects = b->objects, .n_objects = frame->objects.n,
 	                                  .rays = rays->rays, .parameters = b->parameters,
-	                                  .words = job->options->hook->words, .alone = !rays->space->n_nodes,
+	                                  .words = frame->options->hook->words, .alone = !rays->space->n_nodes,
 	                                  .n = rays->n, .occluded = rays->occluded));
 }

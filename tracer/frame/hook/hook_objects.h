@@ -1,7 +1,7 @@
 /*
  * Objects defined by a user's functions `bounds` and `intersection`. They are instances whose triangles are ignored by
  * rays, and whose shape comes from the hook instead (kernels/frame/hook/hook.h). They are in the eye space of
- * job.hooked, and all its pixels are ray traced (hook_rays.h).
+ * frame.hooked, and all its pixels are ray traced (hook_rays.h).
  *
  * Shading handles only triangles. So each hit is represented by a small triangle with the normal that the hook
  * returned. Its three vertices come after the frame's own, in a slot of the ray. Rays of different kinds have separate
@@ -18,21 +18,21 @@ enum hook_rays_of { HOOK_RAYS_FIRST, HOOK_RAYS_ON, HOOK_RAYS_TO_LIGHTS, N_HOOK_R
 
 /** Ask the hook for the bounds of all instances. Those with bounds become objects. Call after hooks_place and before
  * vertices and trees are made. */
-int hook_objects_find(struct job *job);
-void hook_objects_forget(struct job *job);
+int hook_objects_find(struct frame *frame);
+void hook_objects_forget(struct frame *frame);
 
 /** Number of vertices, and of texture coordinates (4 numbers each), to reserve for the triangles after the frame's
  * own. */
-size_t hook_objects_vertices(const struct job *job);
-size_t hook_objects_texcoords(const struct job *job);
+size_t hook_objects_vertices(const struct frame *frame);
+size_t hook_objects_texcoords(const struct frame *frame);
 
 /** Set an object's geometry to the triangles that represent its hits. index: start of their indices in the pool */
-void hook_objects_stand(struct job *job, uint32_t object, uint32_t index);
+void hook_objects_stand(struct frame *frame, uint32_t object, uint32_t index);
 
 /** 1 if a space has objects. */
-int hook_objects_in(const struct job *job, const struct accel_space *space);
+int hook_objects_in(const struct frame *frame, const struct accel_space *space);
 
 /** Find the nearest hits of rays on objects, after the nearest triangles were found; find whether rays hit any
  * object. */
-int hook_objects_intersect(struct job *job, const struct traverse_rays *rays, enum hook_rays_of whose);
-int hook_objects_occlude(struct job *job, const struct traverse_rays *rays);
+int hook_objects_intersect(const struct frame *frame, const struct traverse_rays *rays, enum hook_rays_of whose);
+int hook_objects_occlude(const struct frame *frame, const struct traverse_rays *rays);

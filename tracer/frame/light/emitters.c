@@ -40,8 +40,10 @@ static void place_vertex(const float *modelview, const float *position, double o
 	double v[4];
 
 	for (int row = 0; row < 4; row++)
-		v[row] = (double)modelview[row] * (double)position[0] + (double)modelview[4 + row] * (double)position[1] +
-		         (double)modelview[8 + row] * (double)position[2] + (double)modelview[12 + row] * (double)position[3];
+		v[row] = (double)modelview[row] * (double)position[0] +
+		         (double)modelview[4 + row] * (double)position[1] +
+		         (double)modelview[8 + row] * (double)position[2] +
+		         (double)modelview[12 + row] * (double)position[3];
 	for (int i = 0; i < 3; i++)
 		out[i] = v[i] / v[3];
 }
@@ -62,12 +64,12 @@ static double triangle_area(const struct scene_mesh *mesh, const float *modelvie
 }
 
 /* Add the triangles of an instance. sum: area times strength of all triangles so far, updated. */
-static int add_instance(const struct job *job, uint32_t transport, struct making *making, uint32_t i, double *sum)
+static int add_instance(const struct frame *frame, uint32_t transport, struct making *making, uint32_t i, double *sum)
 {
-	const struct prepared *p = &job->prepared;
-	const struct scene_instance *from = &job->scene->instances[p->instances[i].scene_instance];
-	const struct scene_mesh *mesh = job->scene->meshes[from->mesh];
-	const float strength = emitter_strength(transport, &job->scene->materials[from->material], mesh->attributes);
+	const struct prepared *p = &frame->prepared;
+	const struct scene_instance *from = &frame->scene->instances[p->instances[i].scene_instance];
+	const struct scene_mesh *mesh = frame->scene->meshes[from->mesh];
+	const float strength = emitter_strength(transport, &frame->scene->materials[from->material], mesh->attributes);
 	int err = 0;
 
 	if (!(p->instances[i].flags & INSTANCE_SECONDARY) || p->instances[i].flags & INSTANCE_SKY ||
@@ -86,9 +88,9 @@ static int add_instance(const struct job *job, uint32_t transport, struct making
 }
 
 /* Area of the box around everything that rays can hit in a space. */
-static double box_area(const struct job *job, const struct accel_space *space)
+static double box_area(const struct frame *frame, const struct accel_space *space)
 {
-	const struct node2 *root = &job->tr->accel->top2[space->top2_first];
+	const struct node2 *root = &frame->tr->accel->top2[space->top2_first];
 	double size[3];
 
 	for (int i = 0; i < 3; i++)
@@ -98,10 +100,10 @@ static double box_area(const struct job *job, const struct accel_space *space)
 
 /* Append all emitters of a space to the list. If they are half of the surroundings, rays hit them by chance, so none is
  * sampled. */
-static int add_space(const struct job *job, uint32_t transport, struct making *making, const struct accel_space *space,
-                     struct emission_list *out)
+static int add_space(const struct frame *frame, uint32_t transport, struct making *making,
+                     const struct accel_space *space, struct emission_list *out)
 {
-	const struct prepared *p = &job->prepared;
+	const struct prepared *p = &frame->prepared;
 	double sum = 0;
 	int err = 0;
 
@@ -109,8 +111,8 @@ static int add_space(const struct job *job, uint32_t transport, struct making *m
 	making->area = 0;
 	for (uint32_t i = 0; i < p->n_instances && !err; i++)
 		if (p->scene_views[p->instances[i].view].space == space->space)
-			err = add_instance(job, transport, making, i, &sum);
-	if (making->area > box_area(job, space) / 2)
+			err = add_instance(frame, transport, making, i, &sum);
+	if (making->area > box_area(frame, space) / 2)
 		making->n = out->first;
 	out->n = making->n - out->first;
 	out->emitted = (float)sum;
@@ -119,30 +121,33 @@ static int add_space(const struct job *job, uint32_t transport, struct making *m
 	return err;
 }
 
-int emitters_place(struct job *job, uint32_t transport)
+int emitters_place(struct frame *frame, uint32_t transport)
 {
 	struct making making = { 0 };
-	int err = frame_reserve(job->tr, emitters, 1); /* kernels need the buffer even if it is empty */
+	int err = frame_reserve(frame->tr, emitters, 1); /* kernels need the buffer even if it is empty */
 
 	if (err || transport < TRANSPORT_PATH)
 		return err;
-	job->emissions = calloc(job->n_spaces + (size_t)1, sizeof(*job->emissions));
-	if (!job->emissions)
+	frame->emissions = calloc(frame->n_spaces + (size_t)1, sizeof(*frame->emissions));
+	if (!frame->emissions)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	for (uint32_t i = 0; i < job->n_spaces && !err; i++)
-		if (!job->spaces[i].sky && job->spaces[i].n_nodes)
-			err = add_space(job, transport, &making, &job->spaces[i], &job->emissions[i]);
+	for (uint32_t i = 0; i < frame->n_spaces && !err; i++)
+		if (!frame->spaces[i].sky && frame->spaces[i].n_nodes)
+			err = add_space(frame, transport, &making, &frame->spaces[i], &frame->emissions[i]);
 	if (!err && making.n)
-		err = frame_upload(job->tr, emitters, making.list, making.n);
+		err = frame_upload(frame->tr, emitters, making.list, making.n);
 	free(making.list);
 	free(making.sums);
 	return err;
 }
 
-struct emission_launch emitters_of(const struct job *job, const struct accel_space *space)
+struct emission_launch emitters_of(const struct frame *frame, const struct accel_space *space)
 {
-	const struct emission_list none = { 0 }, *e = job->emissions ? &job->emissions[space - job->spaces] : &none;
+	const struct emission_list none = { 0 },
+				   *e = frame->emissions ? &frame->emissions[space - frame->spaces] : &none;
 
-	return (struct emission_launch){ .emitters = job->tr->buffers.emitters, .emitter_first = e->first, .n_emitters = e->n,
+	return (struct emission_launch){ .emitters = frame->tr->buffers.emitters,
+		                         .emitter_first = e->first,
+		                         .n_emitters = e->n,
 		                         .emitted = e->emitted };
 }

@@ -7,12 +7,12 @@
 
 /**
  * Upload a list of the frame's emissive triangles, space by space.
- * @param job        its geometry must have been placed; job->emissions receives a list for each space, empty if nothing
- *                   is to be sampled
+ * @param frame      its geometry must have been placed; frame->emissions receives a list for each space, empty if
+ *                   nothing is to be sampled
  * @param transport  TRANSPORT_*: only those of mode path have lists
  * @return 0, ERR_MEMORY or ERR_SYSTEM (reported)
  */
-int emitters_place(struct job *job, uint32_t transport);
+int emitters_place(struct frame *frame, uint32_t transport);
 
 /** The emissive triangles of a space, for a launch. */
-struct emission_launch emitters_of(const struct job *job, const struct accel_space *space);
+struct emission_launch emitters_of(const struct frame *frame, const struct accel_space *space);

@@ -31,7 +31,7 @@ struct sent {
 };
 
 struct photons {
-	struct job *job;
+	const struct frame *frame;
 	const struct accel_space *space;
 	struct beam *beams;
 	uint32_t n_beams;
@@ -104,15 +104,16 @@ static int is_asked(const struct scene *scene, uint32_t light)
 /* 1 if photons are sent to an instance: it reflects or refracts light, in this space. */
 static int is_sent_to(const struct photons *p, const struct instance *instance)
 {
-	const struct scene_surface *s = &p->job->scene->materials[instance->material].surface;
+	const struct scene_surface *s = &p->frame->scene->materials[instance->material].surface;
 
-	return instance->flags & INSTANCE_SECONDARY && p->job->prepared.scene_views[instance->view].space == p->space->space &&
+	return instance->flags & INSTANCE_SECONDARY &&
+	       p->frame->prepared.scene_views[instance->view].space == p->space->space &&
 	       (s->reflect > 0 || s->transmit > 0) && !(s->hidden & SCENE_NEAR_MIRROR);
 }
 
 static int add_beams(struct photons *p, uint32_t number, struct vec3 centre, float radius)
 {
-	const struct scene *scene = p->job->scene;
+	const struct scene *scene = p->frame->scene;
 
 	for (uint32_t i = 0; i < scene->n_lights; i++) {
 		struct beam *grown;
@@ -130,13 +131,14 @@ static int add_beams(struct photons *p, uint32_t number, struct vec3 centre, flo
 
 static int find_beams(struct photons *p)
 {
-	const struct prepared *prepared = &p->job->prepared;
+	const struct prepared *prepared = &p->frame->prepared;
 	int err = 0;
 
 	p->smallest = FLT_MAX;
 	for (uint32_t i = 0; i < prepared->n_instances && !err; i++) {
 		const struct instance *instance = &prepared->instances[i];
-		const struct scene_mesh *mesh = p->job->scene->meshes[p->job->scene->instances[instance->scene_instance].mesh];
+		const struct scene_mesh *mesh =
+			p->frame->scene->meshes[p->frame->scene->instances[instance->scene_instance].mesh];
 		struct vec3 centre;
 		float radius;
 
@@ -204,9 +206,13 @@ static uint32_t make_photons(struct photons *p, uint32_t pass)
 			sample_sobol(sample_hash(2 * b + 1), pass * each + i, &at[1][0], &at[1][1]);
 			*ray = (struct ray){ .t_max = 1e30f };
 			p->sent[n].beam = b;
-			p->sent[n].share = (beam->light->position_eye[3] != 0 ? send_from_place(beam, (const float (*)[2])at, ray) :
-			                                                         send_parallel(p, beam, at[0], ray)) / (float)each;
-			p->paths[n] = (struct path){ .weight = { 1, 1, 1 }, .target = n, .kind = beam->instance, .medium = SCENE_NONE };
+			p->sent[n].share = (beam->light->position_eye[3] != 0 ?
+			                            send_from_place(beam, (const float(*)[2])at, ray) :
+			                            send_parallel(p, beam, at[0], ray)) /
+			                   (float)each;
+			p->paths[n] = (struct path){
+				.weight = { 1, 1, 1 }, .target = n, .kind = beam->instance, .medium = SCENE_NONE
+			};
 		}
 	return n;
 }
@@ -227,11 +233,12 @@ static void brightness(const struct photons *p, const struct photon *photon, flo
 	const struct sent *sent = &p->sent[photon->number];
 	const struct scene_light *l = p->beams[sent->beam].light;
 	const float d = photon->length, is_placed = l->position_eye[3] != 0;
-	const float weakened = is_placed ? 1 / (l->attenuation[0] + d * (l->attenuation[1] + d * l->attenuation[2])) : 1;
+	const float weakened = is_placed ? 1 / (l->attenuation[0] + d * (l->attenuation[1] + d * l->attenuation[2])) :
+	                                   1;
 
 	for (int c = 0; c < 3; c++) {
 		const float shown = l->diffuse[c] * weakened,
-			    light = p->job->options->display ? shown : image_linear_from_display(shown);
+			    light = p->frame->options->display ? shown : image_linear_from_display(shown);
 
 		out[c] = photon->weight[c] * light * sent->share * (is_placed ? d * d : 1);
 	}
@@ -240,13 +247,13 @@ static void brightness(const struct photons *p, const struct photon *photon, flo
 static void take(void *user, const struct photon *photons, uint32_t n)
 {
 	struct photons *p = user;
-	const struct scene *scene = p->job->scene;
+	const struct scene *scene = p->frame->scene;
 
 	for (uint32_t i = 0; i < n && !p->lacks_memory; i++) {
 		struct photon *found;
 
-		if (photons[i].number == SCENE_NONE ||
-		    !is_lit_by(scene, &scene->materials[photons[i].material], p->beams[p->sent[photons[i].number].beam].light))
+		if (photons[i].number == SCENE_NONE || !is_lit_by(scene, &scene->materials[photons[i].material],
+		                                                  p->beams[p->sent[photons[i].number].beam].light))
 			continue;
 		if (p->n_found == p->room) {
 			found = realloc(p->found, 2 * ((size_t)p->room + 1024) * sizeof(*found));
@@ -330,7 +337,7 @@ static void gather(const struct photons *p, const float *const planes[9], float 
 {
 	const float scale = share / ((float)M_PI * radius * radius);
 
-	for (size_t i = 0; i < (size_t)p->job->width * p->job->height; i++) {
+	for (size_t i = 0; i < (size_t)p->frame->width * p->frame->height; i++) {
 		const float normal[3] = { planes[0][i], planes[1][i], planes[2][i] },
 			    at[3] = { planes[3][i], planes[4][i], planes[5][i] };
 		uint32_t cells[8], n;
@@ -340,7 +347,8 @@ static void gather(const struct photons *p, const float *const planes[9], float 
 			continue;
 		n = cells_about(at, radius, cells);
 		for (uint32_t k = 0; k < n; k++)
-			for (uint32_t photon = p->cells[cells[k]]; photon != SCENE_NONE; photon = p->found[photon].number)
+			for (uint32_t photon = p->cells[cells[k]]; photon != SCENE_NONE;
+			     photon = p->found[photon].number)
 				gather_photon(&p->found[photon], at, normal, radius, sum);
 		for (int c = 0; c < 3; c++)
 			out[c][i] += sum[c] * scale * planes[6 + c][i];
@@ -351,7 +359,7 @@ static void gather(const struct photons *p, const float *const planes[9], float 
 
 static int run_pass(struct photons *p, uint32_t pass)
 {
-	struct tracer *tr = p->job->tr;
+	struct tracer *tr = p->frame->tr;
 	const uint32_t n = make_photons(p, pass);
 	int err = frame_upload(tr, path_rays, p->rays, n);
 
@@ -359,13 +367,13 @@ static int run_pass(struct photons *p, uint32_t pass)
 	if (!err)
 		err = frame_upload(tr, paths, p->paths, n);
 	if (!err)
-		err = secondary_photons(p->job, p->space, pass, n, take, p);
+		err = secondary_photons(p->frame, p->space, pass, n, take, p);
 	return err || !p->lacks_memory ? err : err_report(ERR_SYSTEM, NULL, "out of memory");
 }
 
 static int run(struct photons *p, const float *const planes[9], float *const out[3])
 {
-	const uint32_t passes = (p->job->options->photons + PHOTONS_OF_PASS - 1) / PHOTONS_OF_PASS;
+	const uint32_t passes = (p->frame->options->photons + PHOTONS_OF_PASS - 1) / PHOTONS_OF_PASS;
 	float radius = RADIUS_FIRST * p->smallest * sqrtf((float)(p->n_beams < 16 ? p->n_beams : 16));
 	int err = 0;
 
@@ -391,12 +399,13 @@ static int run(struct photons *p, const float *const planes[9], float *const out
 	return err;
 }
 
-int photons_add(struct job *job, struct image *img)
+int photons_add(const struct frame *frame, struct image *img)
 {
-	static const char *const needed[9] = { "N.X", "N.Y", "N.Z", "P.X", "P.Y", "P.Z", "albedo.R", "albedo.G", "albedo.B" };
+	static const char *const needed[9] = { "N.X", "N.Y",      "N.Z",      "P.X",     "P.Y",
+		                               "P.Z", "albedo.R", "albedo.G", "albedo.B" };
 	static const char *const added[3] = { "caustics.R", "caustics.G", "caustics.B" };
-	const struct segment *main = prepare_main_segment(&job->prepared);
-	struct photons p = { .job = job, .space = main ? secondary_space(job, main->view, 0) : NULL };
+	const struct segment *main = prepare_main_segment(&frame->prepared);
+	struct photons p = { .frame = frame, .space = main ? secondary_space(frame, main->view, 0) : NULL };
 	const float *planes[9];
 	float *out[3];
 	int err = 0;

@@ -19,4 +19,4 @@
  * @param img  image with channels N, P and albedo
  * @return 0, ERR_MEMORY or ERR_SYSTEM (reported)
  */
-int photons_add(struct job *job, struct image *img);
+int photons_add(const struct frame *frame, struct image *img);

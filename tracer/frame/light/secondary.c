@@ -13,12 +13,12 @@
 /* Most transmitting surfaces in a row that a ray to a light may pass, besides its bounces. */
 #define MOST_LAYERS 32u
 
-const struct accel_space *secondary_space(const struct job *job, uint32_t view, int sky)
+const struct accel_space *secondary_space(const struct frame *frame, uint32_t view, int sky)
 {
-	for (uint32_t i = 0; i < job->n_spaces; i++)
-		if (job->spaces[i].space == job->prepared.scene_views[view].space && job->spaces[i].sky == sky &&
-		    (job->spaces[i].n_nodes || hook_objects_in(job, &job->spaces[i])))
-			return &job->spaces[i];
+	for (uint32_t i = 0; i < frame->n_spaces; i++)
+		if (frame->spaces[i].space == frame->prepared.scene_views[view].space && frame->spaces[i].sky == sky &&
+		    (frame->spaces[i].n_nodes || hook_objects_in(frame, &frame->spaces[i])))
+			return &frame->spaces[i];
 	return NULL;
 }
 
@@ -32,9 +32,9 @@ uint32_t secondary_transport(const struct tracer_options *options)
 }
 
 /* The frame number that scrambles samples in mode path; 0: all frames use the same samples. */
-static uint32_t frame_number(const struct job *job)
+static uint32_t frame_number(const struct frame *frame)
 {
-	return job->options->mode == TRACER_PATH ? (uint32_t)job->scene->frame + 1 : 0;
+	return frame->options->mode == TRACER_PATH ? (uint32_t)frame->scene->frame + 1 : 0;
 }
 
 /* Number of work items for kernels that process SHADE_PACKET items each. */
@@ -44,27 +44,29 @@ static uint32_t packs(uint32_t n)
 }
 
 /* Find which rays are stopped in a space: 1, or 2 if surfaces have to be sampled (kernels/rays/opacity.h). */
-static int occlude(struct job *job, const struct accel_space *space, const struct light_rays *rays,
+static int occlude(const struct frame *frame, const struct accel_space *space, const struct light_rays *rays,
                    union buffer_uint occluded)
 {
 	const struct traverse_rays r = { .space = space, .n = rays->n, .to_lights = rays->to_lights, .rays = rays->rays,
 		                         .occluded = occluded };
-	struct device *dev = job->tr->dev;
-	int err = space->n_nodes ? traverse_rays(dev, traverse_families[device_family(dev)].occlude, &job->tr->trees, &r) : 0;
+	struct device *dev = frame->tr->dev;
+	int err = space->n_nodes ?
+	                  traverse_rays(dev, traverse_families[device_family(dev)].occlude, &frame->tr->trees, &r) :
+	                  0;
 
-	return err || !hook_objects_in(job, space) ? err : hook_objects_occlude(job, &r);
+	return err || !hook_objects_in(frame, space) ? err : hook_objects_occlude(frame, &r);
 }
 
 /* Find the nearest hits of rays. whose: kind of rays */
-static int intersect(struct job *job, enum hook_rays_of whose, struct traverse_rays r)
+static int intersect(const struct frame *frame, enum hook_rays_of whose, struct traverse_rays r)
 {
-	struct device *dev = job->tr->dev;
+	struct device *dev = frame->tr->dev;
 	int err = 0;
 
-	r.passing = whose == HOOK_RAYS_TO_LIGHTS && opacity_is_known(job, r.space) && !hooks_has(job, HOOK_ANY_HIT);
+	r.passing = whose == HOOK_RAYS_TO_LIGHTS && opacity_is_known(frame, r.space) && !hooks_has(frame, HOOK_ANY_HIT);
 	if (r.space->n_nodes)
-		err = traverse_rays(dev, traverse_families[device_family(dev)].intersect, &job->tr->trees, &r);
-	return err || !hook_objects_in(job, r.space) ? err : hook_objects_intersect(job, &r, whose);
+		err = traverse_rays(dev, traverse_families[device_family(dev)].intersect, &frame->tr->trees, &r);
+	return err || !hook_objects_in(frame, r.space) ? err : hook_objects_intersect(frame, &r, whose);
 }
 
 /* --- Lists ------------------------------------------------------------------------------------------------------- */
@@ -75,39 +77,39 @@ struct list {
 	union buffer_ray *rays, *next_rays;
 };
 
-static struct list path_list(struct job *job)
+static struct list path_list(const struct frame *frame)
 {
-	struct frame_buffers *b = &job->tr->buffers;
+	struct frame_buffers *b = &frame->tr->buffers;
 
 	return (struct list){ &b->paths, &b->next_paths, &b->path_rays, &b->next_path_rays };
 }
 
 /* The list of rays to lights that continue beyond the surface that stopped them. */
-static struct list shadow_list(struct job *job)
+static struct list shadow_list(const struct frame *frame)
 {
-	struct frame_buffers *b = &job->tr->buffers;
+	struct frame_buffers *b = &frame->tr->buffers;
 
 	return (struct list){ &b->shadow_paths, &b->next_shadow_paths, &b->shadow_rays, &b->next_shadow_rays };
 }
 
-static int reserve_list(struct job *job, const struct list *list, size_t n)
+static int reserve_list(const struct frame *frame, const struct list *list, size_t n)
 {
-	int err = launch_reserve(job->tr->dev, *list->paths, n);
+	int err = launch_reserve(frame->tr->dev, *list->paths, n);
 
-	return err ? err : launch_reserve(job->tr->dev, *list->rays, n);
+	return err ? err : launch_reserve(frame->tr->dev, *list->rays, n);
 }
 
-static int reserve_next(struct job *job, const struct list *list, size_t n)
+static int reserve_next(const struct frame *frame, const struct list *list, size_t n)
 {
-	int err = launch_reserve(job->tr->dev, *list->next_paths, n);
+	int err = launch_reserve(frame->tr->dev, *list->next_paths, n);
 
-	return err ? err : launch_reserve(job->tr->dev, *list->next_rays, n);
+	return err ? err : launch_reserve(frame->tr->dev, *list->next_rays, n);
 }
 
 /* Compute the positions of n items' results in a dense list from their counts, into buffers.places. */
-static int place(struct job *job, union buffer_uint counts, uint32_t n, uint32_t *total)
+static int place(const struct frame *frame, union buffer_uint counts, uint32_t n, uint32_t *total)
 {
-	struct tracer *tr = job->tr;
+	struct tracer *tr = frame->tr;
 
 	return scan_counts(tr->dev,
 	                   &(const struct scan_list){ counts, n, SCENE_NONE, &tr->buffers.places, &tr->buffers.scan },
@@ -115,18 +117,18 @@ static int place(struct job *job, union buffer_uint counts, uint32_t n, uint32_t
 }
 
 /* Replace a list by the results of its n paths, up to `slots` each. */
-static int gather_list(struct job *job, const struct list *list, uint32_t slots, uint32_t *n)
+static int gather_list(const struct frame *frame, const struct list *list, uint32_t slots, uint32_t *n)
 {
-	const struct frame_buffers *b = &job->tr->buffers;
+	const struct frame_buffers *b = &frame->tr->buffers;
 	uint32_t from = *n;
-	int err = place(job, b->next_counts, from, n);
+	int err = place(frame, b->next_counts, from, n);
 
 	if (err || *n == 0)
 		return err;
-	err = reserve_list(job, list, *n);
+	err = reserve_list(frame, list, *n);
 	if (err)
 		return err;
-	return launch_gather_paths(job->tr->dev, from,
+	return launch_gather_paths(frame->tr->dev, from,
 	                           LAUNCH(gather_paths, .next_rays = *list->next_rays, .next_paths = *list->next_paths,
 	                                  .counts = b->next_counts, .places = b->places, .slots = slots, .n = from,
 	                                  .rays = *list->rays, .paths = *list->paths));
@@ -134,18 +136,18 @@ static int gather_list(struct job *job, const struct list *list, uint32_t slots,
 
 /* --- Rays to lights ---------------------------------------------------------------------------------------------- */
 
-static int start_walk(struct job *job, const struct list *list, union buffer_ray rays, uint32_t n_rays, float weight,
-                      uint32_t *n)
+static int start_walk(const struct frame *frame, const struct list *list, union buffer_ray rays, uint32_t n_rays,
+                      float weight, uint32_t *n)
 {
-	struct tracer *tr = job->tr;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	int err = place(job, b->occluded, n_rays, n);
+	int err = place(frame, b->occluded, n_rays, n);
 
 	if (err || *n == 0)
 		return err;
-	err = reserve_list(job, list, *n);
+	err = reserve_list(frame, list, *n);
 	if (!err)
-		err = reserve_next(job, list, *n);
+		err = reserve_next(frame, list, *n);
 	if (!err)
 		err = frame_reserve(tr, shadow_hits, *n);
 	if (!err)
@@ -159,16 +161,17 @@ static int start_walk(struct job *job, const struct list *list, union buffer_ray
 }
 
 /* Continue those of the rays that shadow_sum left as stopped, through transmitting surfaces one after another. */
-static int walk_layers(struct job *job, const struct accel_space *space, const struct light_rays *to, float weight)
+static int walk_layers(const struct frame *frame, const struct accel_space *space, const struct light_rays *to,
+                       float weight)
 {
-	struct tracer *tr = job->tr;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	const struct list list = shadow_list(job);
+	const struct list list = shadow_list(frame);
 	uint32_t n;
-	int err = start_walk(job, &list, to->rays, to->n, weight, &n);
+	int err = start_walk(frame, &list, to->rays, to->n, weight, &n);
 
 	for (uint32_t i = 0; i < MOST_LAYERS && n && !err; i++) {
-		err = intersect(job, HOOK_RAYS_TO_LIGHTS,
+		err = intersect(frame, HOOK_RAYS_TO_LIGHTS,
 		                (struct traverse_rays){ .space = space, .n = n, .to_lights = to->to_lights,
 		                                        .rays = *list.rays, .hits = b->shadow_hits });
 		if (!err)
@@ -179,35 +182,35 @@ static int walk_layers(struct job *job, const struct accel_space *space, const s
 			                                .n = n, .visibility = to->visibility,
 			                                .next_rays = *list.next_rays, .next_paths = *list.next_paths,
 			                                .counts = b->next_counts));
-		if (!err && hooks_has(job, HOOK_ANY_HIT))
-			err = hooks_walk(job, secondary_transport(job->options), n);
+		if (!err && hooks_has(frame, HOOK_ANY_HIT))
+			err = hooks_walk(frame, secondary_transport(frame->options), n);
 		if (!err)
-			err = gather_list(job, &list, 1, &n);
+			err = gather_list(frame, &list, 1, &n);
 	}
 	return err;
 }
 
 /* Trace one of `samples` rounds of rays. */
-static int ask(struct job *job, const struct accel_space *space, const struct light_rays *r, uint32_t sample,
+static int ask(const struct frame *frame, const struct accel_space *space, const struct light_rays *r, uint32_t sample,
                uint32_t samples)
 {
-	const struct frame_buffers *b = &job->tr->buffers;
-	const int asks = hooks_has(job, HOOK_ANY_HIT), transparent = job->prepared.has_transparency,
-		  through = asks || (transparent && !opacity_is_known(job, space));
+	const struct frame_buffers *b = &frame->tr->buffers;
+	const int asks = hooks_has(frame, HOOK_ANY_HIT), transparent = frame->prepared.has_transparency,
+		  through = asks || (transparent && !opacity_is_known(frame, space));
 	float weight = 1.0f / (float)samples;
-	int err = occlude(job, space, r, b->occluded);
+	int err = occlude(frame, space, r, b->occluded);
 
 	if (!err)
-		err = launch_shadow_sum(job->tr->dev, r->n,
+		err = launch_shadow_sum(frame->tr->dev, r->n,
 		                        LAUNCH(shadow_sum, .rays = r->rays, .weight = weight, .first = sample == 0,
 		                               .through = (uint32_t)through, .n = r->n, .occluded = b->occluded,
 		                               .visibility = r->visibility));
-	return err || !(r->to_lights || transparent || asks) ? err : walk_layers(job, space, r, weight);
+	return err || !(r->to_lights || transparent || asks) ? err : walk_layers(frame, space, r, weight);
 }
 
-int secondary_reserve_rays(struct job *job, size_t n_rays, union buffer_float *visibility)
+int secondary_reserve_rays(const struct frame *frame, size_t n_rays, union buffer_float *visibility)
 {
-	struct tracer *tr = job->tr;
+	struct tracer *tr = frame->tr;
 	int err = frame_reserve(tr, rays, n_rays);
 
 	if (!err)
@@ -217,62 +220,64 @@ int secondary_reserve_rays(struct job *job, size_t n_rays, union buffer_float *v
 	return err;
 }
 
-int secondary_ask(struct job *job, const struct accel_space *space, const struct light_rays *rays)
+int secondary_ask(const struct frame *frame, const struct accel_space *space, const struct light_rays *rays)
 {
-	return ask(job, space, rays, 0, 1);
+	return ask(frame, space, rays, 0, 1);
 }
 
 /* The first n of buffers.rays. */
-static struct light_rays own_rays(const struct job *job, uint32_t to_lights, uint32_t n)
+static struct light_rays own_rays(const struct frame *frame, uint32_t to_lights, uint32_t n)
 {
-	return (struct light_rays){ job->tr->buffers.rays, job->tr->buffers.visibility, n, to_lights };
+	return (struct light_rays){ frame->tr->buffers.rays, frame->tr->buffers.visibility, n, to_lights };
 }
 
 /* Rays to each light per pass. */
-static uint32_t light_rays(const struct job *job)
+static uint32_t light_rays(const struct frame *frame)
 {
 	uint32_t wide = 0;
 
-	for (uint32_t i = 0; i < job->scene->n_lights; i++)
-		wide |= job->scene->lights[i].radius > 0;
-	return wide && job->options->mode != TRACER_PATH ? job->options->rays : 1;
+	for (uint32_t i = 0; i < frame->scene->n_lights; i++)
+		wide |= frame->scene->lights[i].radius > 0;
+	return wide && frame->options->mode != TRACER_PATH ? frame->options->rays : 1;
 }
 
-int secondary_shadows(struct job *job, const struct accel_space *space, uint32_t n)
+int secondary_shadows(const struct pass *pass, const struct accel_space *space, uint32_t n)
 {
-	struct tracer *tr = job->tr;
+	const struct frame *frame = pass->frame;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	uint32_t n_rays = job->prepared.n_light_slots * n, samples = light_rays(job);
-	int err = secondary_reserve_rays(job, n_rays, &tr->buffers.visibility);
+	uint32_t n_rays = frame->prepared.n_light_slots * n, samples = light_rays(frame);
+	int err = secondary_reserve_rays(frame, n_rays, &tr->buffers.visibility);
 
 	for (uint32_t i = 0; i < samples && !err; i++) {
-		const struct light_rays rays = own_rays(job, 1, n_rays);
-		const struct shadow_ray_launch *a =
-			LAUNCH(shadow_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
-			       .fragments = b->fragments, .pixels = b->pixels, .width = job->width, .shaded = b->shaded,
-			       .sample = job->pass * samples + i, .frame = frame_number(job), .n = n, .n_rays = n_rays,
-			       .rays = b->rays);
+		const struct light_rays rays = own_rays(frame, 1, n_rays);
+		const struct shadow_ray_launch *a = LAUNCH(
+			shadow_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
+			.fragments = b->fragments, .pixels = b->pixels, .width = frame->width, .shaded = b->shaded,
+			.sample = pass->number * samples + i, .frame = frame_number(frame), .n = n, .n_rays = n_rays,
+			.rays = b->rays);
 
-		if (frame_in_packets(job))
+		if (frame_in_packets(frame))
 			err = launch_shadow_ray_packet(tr->dev, packs(n_rays), a);
 		else
 			err = launch_shadow_ray(tr->dev, n_rays, a);
 		if (!err)
-			err = ask(job, space, &rays, i, samples);
+			err = ask(frame, space, &rays, i, samples);
 	}
-	return err || !hooks_has(job, HOOK_LIGHT) ? err : hooks_light(job, secondary_transport(job->options), n);
+	return err || !hooks_has(frame, HOOK_LIGHT) ? err : hooks_light(frame, secondary_transport(frame->options), n);
 }
 
 /* The same from the hits of n paths. */
-static int trace_hit_shadows(struct job *job, const struct accel_space *space, uint32_t transport, uint32_t n)
+static int trace_hit_shadows(const struct pass *pass, const struct accel_space *space, uint32_t transport, uint32_t n)
 {
-	struct tracer *tr = job->tr;
+	const struct frame *frame = pass->frame;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	const struct emission_launch emission = emitters_of(job, space);
-	const uint32_t n_rays = job->prepared.n_light_slots * n, samples = (light_rays(job) + 3) / 4,
+	const struct emission_launch emission = emitters_of(frame, space);
+	const uint32_t n_rays = frame->prepared.n_light_slots * n, samples = (light_rays(frame) + 3) / 4,
 		       all = n_rays + (emission.n_emitters ? n : 0);
-	const int packets = frame_in_packets(job);
-	int err = secondary_reserve_rays(job, all, &tr->buffers.visibility);
+	const int packets = frame_in_packets(frame);
+	int err = secondary_reserve_rays(frame, all, &tr->buffers.visibility);
 
 	if (!err)
 		err = frame_reserve(tr, wanted, n);
@@ -282,98 +287,103 @@ static int trace_hit_shadows(struct job *job, const struct accel_space *space, u
 		                                .rays = b->path_rays, .transport = transport, .n = n,
 		                                .wanted = b->wanted));
 	for (uint32_t i = 0; i < samples && !err; i++) {
-		const struct light_rays rays = own_rays(job, 1, all);
-		const struct hit_ray_launch *a =
-			LAUNCH(hit_ray, .tables = frame_tables(tr), .hits = b->path_hits, .rays = b->path_rays, .paths = b->paths,
-			       .pixels = b->pixels, .wanted = b->wanted, .transport = transport, .sample = job->pass * samples + i,
-			       .frame = frame_number(job), .n = n, .n_rays = n_rays, .out = b->rays);
+		const struct light_rays rays = own_rays(frame, 1, all);
+		const struct hit_ray_launch *a = LAUNCH(
+			hit_ray, .tables = frame_tables(tr), .hits = b->path_hits, .rays = b->path_rays,
+			.paths = b->paths, .pixels = b->pixels, .wanted = b->wanted, .transport = transport,
+			.sample = pass->number * samples + i, .frame = frame_number(frame), .n = n, .n_rays = n_rays,
+			.out = b->rays);
 
 		err = packets ? launch_hit_ray_packet(tr->dev, packs(n), a) : launch_hit_ray(tr->dev, n_rays, a);
 		if (!err && all > n_rays)
 			err = launch_bounce_ray(tr->dev, n,
 			                        LAUNCH(bounce_ray, .tables = frame_tables(tr), .hits = b->path_hits,
 			                               .rays = b->path_rays, .paths = b->paths, .pixels = b->pixels,
-			                               .emission = emission, .sample = job->pass,
-			                               .frame = frame_number(job), .depth = job->options->depth,
+			                               .emission = emission, .sample = pass->number,
+			                               .frame = frame_number(frame), .depth = frame->options->depth,
 			                               .first = n_rays, .n = n, .out = b->rays));
 		if (!err)
-			err = ask(job, space, &rays, i, samples);
+			err = ask(frame, space, &rays, i, samples);
 	}
-	return err || !hooks_has(job, HOOK_LIGHT) ? err : hooks_light_hits(job, transport, n);
+	return err || !hooks_has(frame, HOOK_LIGHT) ? err : hooks_light_hits(frame, transport, n);
 }
 
 /* --- Openness ---------------------------------------------------------------------------------------------------- */
 
-int secondary_openness(struct job *job, const struct accel_space *space, uint32_t n)
+int secondary_openness(const struct pass *pass, const struct accel_space *space, uint32_t n)
 {
-	struct tracer *tr = job->tr;
+	const struct frame *frame = pass->frame;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	uint32_t samples = job->options->rays;
-	int err = secondary_reserve_rays(job, n, &tr->buffers.visibility);
+	uint32_t samples = frame->options->rays;
+	int err = secondary_reserve_rays(frame, n, &tr->buffers.visibility);
 
 	for (uint32_t i = 0; i < samples && !err; i++) {
-		const struct light_rays rays = own_rays(job, 0, n);
+		const struct light_rays rays = own_rays(frame, 0, n);
 
-		err = launch_ao_ray(tr->dev, n, LAUNCH(ao_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
-		                                       .fragments = b->fragments, .pixels = b->pixels, .width = job->width,
-		                                       .shaded = b->shaded, .sample = job->pass * samples + i,
-		                                       .reach = job->options->reach > 0 ? job->options->reach : 1e30f, .n = n,
-		                                       .rays = b->rays));
+		err = launch_ao_ray(tr->dev, n,
+		                    LAUNCH(ao_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
+		                           .fragments = b->fragments, .pixels = b->pixels, .width = frame->width,
+		                           .shaded = b->shaded, .sample = pass->number * samples + i,
+		                           .reach = frame->options->reach > 0 ? frame->options->reach : 1e30f, .n = n,
+		                           .rays = b->rays));
 		if (!err)
-			err = ask(job, space, &rays, i, samples);
+			err = ask(frame, space, &rays, i, samples);
 	}
 	if (err)
 		return err;
 	return launch_ao_shade(tr->dev, n,
 	                       LAUNCH(ao_shade, .visibility = b->visibility,
-	                              .over_gl = job->options->mode == TRACER_AO_PHONG, .n = n, .shaded = b->shaded));
+	                              .over_gl = frame->options->mode == TRACER_AO_PHONG, .n = n, .shaded = b->shaded));
 }
 
 /* --- Paths ------------------------------------------------------------------------------------------------------- */
 
 /* Find the emissive surfaces that each of n fragments sees, into buffers.visibility. */
-static int ask_emitters(struct job *job, const struct accel_space *space, uint32_t n)
+static int ask_emitters(const struct pass *pass, const struct accel_space *space, uint32_t n)
 {
-	struct tracer *tr = job->tr;
+	const struct frame *frame = pass->frame;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	const struct emission_launch emission = emitters_of(job, space);
-	int err = emission.n_emitters ? secondary_reserve_rays(job, n, &tr->buffers.visibility) : 0;
+	const struct emission_launch emission = emitters_of(frame, space);
+	int err = emission.n_emitters ? secondary_reserve_rays(frame, n, &tr->buffers.visibility) : 0;
 	struct light_rays rays;
 
 	if (err || !emission.n_emitters)
 		return err;
-	rays = own_rays(job, 1, n);
+	rays = own_rays(frame, 1, n);
 	err = launch_leave_ray(tr->dev, n,
 	                       LAUNCH(leave_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
-	                              .fragments = b->fragments, .pixels = b->pixels, .width = job->width,
-	                              .shaded = b->shaded, .emission = emission, .sample = job->pass,
-	                              .frame = frame_number(job), .n = n, .rays = b->rays));
-	return err ? err : ask(job, space, &rays, 0, 1);
+	                              .fragments = b->fragments, .pixels = b->pixels, .width = frame->width,
+	                              .shaded = b->shaded, .emission = emission, .sample = pass->number,
+	                              .frame = frame_number(frame), .n = n, .rays = b->rays));
+	return err ? err : ask(frame, space, &rays, 0, 1);
 }
 
-static int leave(struct job *job, const struct list *list, const struct accel_space *space, uint32_t transport,
+static int leave(const struct pass *pass, const struct list *list, const struct accel_space *space, uint32_t transport,
                  uint32_t n)
 {
-	struct tracer *tr = job->tr;
+	const struct frame *frame = pass->frame;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	const struct leave_launch *a;
-	int err = reserve_next(job, list, (size_t)PATHS_PER_FRAGMENT * n);
+	int err = reserve_next(frame, list, (size_t)PATHS_PER_FRAGMENT * n);
 
 	if (!err)
 		err = frame_reserve(tr, next_counts, n);
 	if (err)
 		return err;
-	a = LAUNCH(leave, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
-	           .pixels = b->pixels, .width = job->width, .transport = transport, .sample = job->pass,
-	           .frame = frame_number(job), .emission = emitters_of(job, space), .visibility = b->visibility, .n = n,
-	           .shaded = b->shaded,
-	           .next_rays = *list->next_rays, .next_paths = *list->next_paths, .counts = b->next_counts);
-	return frame_in_packets(job) ? launch_leave_packet(tr->dev, packs(n), a) : launch_leave(tr->dev, n, a);
+	a = LAUNCH(leave, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
+	           .fragments = b->fragments, .pixels = b->pixels, .width = frame->width, .transport = transport,
+	           .sample = pass->number, .frame = frame_number(frame), .emission = emitters_of(frame, space),
+	           .visibility = b->visibility, .n = n, .shaded = b->shaded, .next_rays = *list->next_rays,
+	           .next_paths = *list->next_paths, .counts = b->next_counts);
+	return frame_in_packets(frame) ? launch_leave_packet(tr->dev, packs(n), a) : launch_leave(tr->dev, n, a);
 }
 
-static int look_at_sky(struct job *job, const struct accel_space *sky, uint32_t n)
+static int look_at_sky(const struct frame *frame, const struct accel_space *sky, uint32_t n)
 {
-	struct tracer *tr = job->tr;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	int err = frame_reserve(tr, sky_hits, sky ? n : 1);
 
@@ -384,18 +394,19 @@ static int look_at_sky(struct job *job, const struct accel_space *sky, uint32_t 
 		err = launch_sky_ray(
 			tr->dev, n,
 			LAUNCH(sky_ray, .hits = b->path_hits, .rays = b->path_rays, .n = n, .out = b->sky_rays));
-	return err ? err : intersect(job, HOOK_RAYS_ON,
+	return err ? err : intersect(frame, HOOK_RAYS_ON,
 		                       (struct traverse_rays){ .space = sky, .n = n, .rays = b->sky_rays,
 		                                               .hits = b->sky_hits });
 }
 
-static int shade_hits(struct job *job, const struct list *list, const struct accel_space *space, uint32_t has_sky,
-                      uint32_t transport, uint32_t n)
+static int shade_hits(const struct pass *pass, const struct list *list, const struct accel_space *space,
+                      uint32_t has_sky, uint32_t transport, uint32_t n)
 {
-	struct tracer *tr = job->tr;
+	const struct frame *frame = pass->frame;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	const struct shade_hit_launch *a;
-	int err = reserve_next(job, list, (size_t)PATHS_PER_HIT * n);
+	int err = reserve_next(frame, list, (size_t)PATHS_PER_HIT * n);
 
 	if (!err)
 		err = frame_reserve(tr, next_counts, n);
@@ -405,104 +416,107 @@ static int shade_hits(struct job *job, const struct list *list, const struct acc
 		return err;
 	a = LAUNCH(shade_hit, .tables = frame_tables(tr), .hits = b->path_hits, .sky = b->sky_hits, .has_sky = has_sky,
 	           .rays = *list->rays, .paths = *list->paths, .pixels = b->pixels, .visibility = b->visibility,
-	           .n_slots = job->prepared.n_light_slots, .transport = transport, .sample = job->pass,
-	           .frame = frame_number(job), .emission = emitters_of(job, space), .depth = job->options->depth,
-	           .most = job->options->clamp, .background = b->background, .shaded = b->shaded, .n = n,
+	           .n_slots = frame->prepared.n_light_slots, .transport = transport, .sample = pass->number,
+	           .frame = frame_number(frame), .emission = emitters_of(frame, space), .depth = frame->options->depth,
+	           .most = frame->options->clamp, .background = b->background, .shaded = b->shaded, .n = n,
 	           .radiance = b->radiance, .next_rays = *list->next_rays, .next_paths = *list->next_paths,
 	           .counts = b->next_counts);
-	return frame_in_packets(job) ? launch_shade_hit_packet(tr->dev, packs(n), a) : launch_shade_hit(tr->dev, n, a);
+	return frame_in_packets(frame) ? launch_shade_hit_packet(tr->dev, packs(n), a) :
+	                                 launch_shade_hit(tr->dev, n, a);
 }
 
-int secondary_follow(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t slots,
-                     uint32_t n, int see)
+int secondary_follow(const struct band *band, const struct accel_space *space, const struct accel_space *sky,
+                     uint32_t slots, uint32_t n, int see)
 {
-	struct tracer *tr = job->tr;
+	const struct frame *frame = band->frame;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	const struct list list = path_list(job);
-	const uint32_t transport = secondary_transport(job->options);
-	int err = frame_upload(tr, background, job->background, 4);
+	const struct list list = path_list(frame);
+	const uint32_t transport = secondary_transport(frame->options);
+	int err = frame_upload(tr, background, band->background, 4);
 
 	if (!err)
 		err = frame_reserve(tr, visibility, 3);
 	if (!err)
-		err = gather_list(job, &list, slots, &n);
-	for (uint32_t i = 0; i < job->options->depth + MOST_LAYERS && n && !err; i++) {
+		err = gather_list(frame, &list, slots, &n);
+	for (uint32_t i = 0; i < frame->options->depth + MOST_LAYERS && n && !err; i++) {
 		err = frame_reserve(tr, path_hits, n);
 		if (!err)
-			err = intersect(job, i == 0 && see ? HOOK_RAYS_FIRST : HOOK_RAYS_ON,
+			err = intersect(frame, i == 0 && see ? HOOK_RAYS_FIRST : HOOK_RAYS_ON,
 			                (struct traverse_rays){ .space = space, .n = n, .rays = *list.rays,
 			                                        .hits = b->path_hits });
 		if (!err && i == 0 && see)
-			err = hooks_see(job, n);
+			err = hooks_see(band, n);
 		if (!err)
-			err = look_at_sky(job, sky, n);
-		if (!err && (job->prepared.n_light_slots || emitters_of(job, space).n_emitters))
-			err = trace_hit_shadows(job, space, transport, n);
+			err = look_at_sky(frame, sky, n);
+		if (!err && (frame->prepared.n_light_slots || emitters_of(frame, space).n_emitters))
+			err = trace_hit_shadows(band->pass, space, transport, n);
 		if (!err)
-			err = shade_hits(job, &list, space, sky != NULL, transport, n);
-		if (!err && hooks_has(job, HOOK_ANY_HIT | HOOK_CLOSEST_HIT | HOOK_MISS))
-			err = hooks_hit(job, space, transport, n);
+			err = shade_hits(band->pass, &list, space, sky != NULL, transport, n);
+		if (!err && hooks_has(frame, HOOK_ANY_HIT | HOOK_CLOSEST_HIT | HOOK_MISS))
+			err = hooks_hit(frame, space, transport, n);
 		if (!err)
 			err = launch_credit(tr->dev, n,
 			                    LAUNCH(credit, .paths = *list.paths, .radiance = b->radiance,
 			                           .transport = transport, .n = n, .shaded = b->shaded));
 		if (!err)
-			err = gather_list(job, &list, PATHS_PER_HIT, &n);
+			err = gather_list(frame, &list, PATHS_PER_HIT, &n);
 	}
 	return err;
 }
 
-int secondary_paths(struct job *job, const struct accel_space *space, const struct accel_space *sky, uint32_t n)
+int secondary_paths(const struct band *band, const struct accel_space *space, const struct accel_space *sky, uint32_t n)
 {
-	const struct list list = path_list(job);
-	int err = frame_reserve(job->tr, visibility, 3);
+	const struct frame *frame = band->frame;
+	const struct list list = path_list(frame);
+	int err = frame_reserve(frame->tr, visibility, 3);
 
 	if (!err)
-		err = ask_emitters(job, space, n);
+		err = ask_emitters(band->pass, space, n);
 	if (!err)
-		err = leave(job, &list, space, secondary_transport(job->options), n);
-	if (!err && hooks_has(job, HOOK_ANY_HIT | HOOK_CLOSEST_HIT))
-		err = hooks_ways(job, secondary_transport(job->options), n);
-	return err ? err : secondary_follow(job, space, sky, PATHS_PER_FRAGMENT, n, 0);
+		err = leave(band->pass, &list, space, secondary_transport(frame->options), n);
+	if (!err && hooks_has(frame, HOOK_ANY_HIT | HOOK_CLOSEST_HIT))
+		err = hooks_ways(frame, secondary_transport(frame->options), n);
+	return err ? err : secondary_follow(band, space, sky, PATHS_PER_FRAGMENT, n, 0);
 }
 
 /* --- Photons ----------------------------------------------------------------------------------------------------- */
 
 /* Trace n photons to their next hits. photons: room for n */
-static int send(struct job *job, const struct list *list, const struct accel_space *space, uint32_t pass, uint32_t n,
-                struct photon *photons)
+static int send(const struct frame *frame, const struct list *list, const struct accel_space *space, uint32_t pass,
+                uint32_t n, struct photon *photons)
 {
-	struct tracer *tr = job->tr;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
 	int err;
 
 	if ((err = frame_reserve(tr, path_hits, n)) || (err = frame_reserve(tr, photons, n)) ||
-	    (err = frame_reserve(tr, next_counts, n)) || (err = reserve_next(job, list, (size_t)PATHS_PER_HIT * n)) ||
-	    (err = intersect(job, HOOK_RAYS_ON,
+	    (err = frame_reserve(tr, next_counts, n)) || (err = reserve_next(frame, list, (size_t)PATHS_PER_HIT * n)) ||
+	    (err = intersect(frame, HOOK_RAYS_ON,
 	                     (struct traverse_rays){ .space = space, .n = n, .rays = *list->rays,
 	                                             .hits = b->path_hits })) ||
 	    (err = launch_photon(tr->dev, n,
 	                         LAUNCH(photon, .tables = frame_tables(tr), .hits = b->path_hits, .rays = *list->rays,
-	                                .paths = *list->paths, .depth = job->options->depth, .pass = pass, .n = n,
+	                                .paths = *list->paths, .depth = frame->options->depth, .pass = pass, .n = n,
 	                                .photons = b->photons, .next_rays = *list->next_rays,
 	                                .next_paths = *list->next_paths, .counts = b->next_counts))))
 		return err;
 	return device_read(tr->dev, b->photons.buffer, 0, photons, n * sizeof(*photons));
 }
 
-int secondary_photons(struct job *job, const struct accel_space *space, uint32_t pass, uint32_t n,
+int secondary_photons(const struct frame *frame, const struct accel_space *space, uint32_t pass, uint32_t n,
                       void (*take)(void *user, const struct photon *photons, uint32_t n), void *user)
 {
-	const struct list list = path_list(job);
+	const struct list list = path_list(frame);
 	struct photon *photons = malloc(((size_t)n + 1) * sizeof(*photons));
 	int err = photons ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory for %u photons", n);
 
 	while (n && !err) {
-		err = send(job, &list, space, pass, n, photons);
+		err = send(frame, &list, space, pass, n, photons);
 		if (err)
 			break;
 		take(user, photons, n);
-		err = gather_list(job, &list, PATHS_PER_HIT, &n);
+		err = gather_list(frame, &list, PATHS_PER_HIT, &n);
 	}
 	free(photons);
 	return err;

@@ -16,16 +16,17 @@ static const struct part {
 	[TRACER_GLASS] = { "refract", COMPOSE_REFRACT, 0 },
 };
 
-int added_counts(const struct job *job)
+int added_counts(const struct pass *pass)
 {
-	const enum tracer_mode mode = job->options->mode;
+	const enum tracer_mode mode = pass->frame->options->mode;
 
-	return job->image && job->options->counts && (mode == TRACER_WHITTED || mode == TRACER_DIFFUSE || mode == TRACER_PATH);
+	return pass->image && pass->frame->options->counts &&
+	       (mode == TRACER_WHITTED || mode == TRACER_DIFFUSE || mode == TRACER_PATH);
 }
 
-int added_needs(const struct job *job, const char *group)
+int added_needs(const struct pass *pass, const char *group)
 {
-	for (int i = 0; i < N_TRACER_PARTS && added_counts(job); i++)
+	for (int i = 0; i < N_TRACER_PARTS && added_counts(pass); i++)
 		if (strcmp(parts[i].group, group) == 0)
 			return 1;
 	return 0;
@@ -38,7 +39,8 @@ static uint32_t mark(const struct part *part, const uint16_t *const planes[3], s
 	uint32_t count = 0;
 
 	for (size_t i = 0; i < n; i++) {
-		const unsigned is = (((r[i] ^ part->nothing) | (g[i] ^ part->nothing) | (b[i] ^ part->nothing)) & 0x7fffu) != 0;
+		const unsigned is = (((r[i] ^ part->nothing) | (g[i] ^ part->nothing) | (b[i] ^ part->nothing)) &
+		                     0x7fffu) != 0;
 
 		changed[i] |= (uint8_t)is;
 		count += is;
@@ -46,16 +48,16 @@ static uint32_t mark(const struct part *part, const uint16_t *const planes[3], s
 	return count;
 }
 
-void added_take(struct job *job, const struct compose_request *request, const uint16_t *halves)
+void added_take(const struct band *band, const struct compose_request *request, const uint16_t *halves)
 {
-	struct tracer_added *added = &job->added;
+	struct tracer_added *added = &band->pass->drawn->added;
 
-	if (!added_counts(job))
+	if (!added_counts(band->pass))
 		return;
-	if (job->row_first + job->n_rows == job->height) /* the topmost band is drawn first */
+	if (band->row_first + band->n_rows == band->frame->height) /* the topmost band is drawn first */
 		memset(added, 0, sizeof(*added));
-	for (uint32_t first = 0; first < job->n_pixels; first += ROW) {
-		const uint32_t n = job->n_pixels - first < ROW ? job->n_pixels - first : ROW;
+	for (uint32_t first = 0; first < band->n_pixels; first += ROW) {
+		const uint32_t n = band->n_pixels - first < ROW ? band->n_pixels - first : ROW;
 		uint8_t changed[ROW] = { 0 };
 
 		for (int k = 0; k < N_TRACER_PARTS; k++) {
@@ -69,5 +71,5 @@ void added_take(struct job *job, const struct compose_request *request, const ui
 		for (uint32_t i = 0; i < n; i++)
 			added->changed += changed[i];
 	}
-	added->pixels += job->n_pixels;
+	added->pixels += band->n_pixels;
 }

@@ -5,13 +5,13 @@
 #include "tracer/frame/common/frame.h"
 
 /** 1 if a picture's pixels are counted: with tracer_options.counts, in the modes that add light. */
-int added_counts(const struct job *job);
+int added_counts(const struct pass *pass);
 
 /** 1 if counting needs a channel group, whether or not the picture has it. */
-int added_needs(const struct job *job, const char *group);
+int added_needs(const struct pass *pass, const char *group);
 
 /**
- * Count a band's pixels in job.added. The first band of a picture resets the counts.
+ * Count a band's pixels in drawn.added. The first band of a picture resets the counts.
  * @param halves  planes of the band, as laid out by the request
  */
-void added_take(struct job *job, const struct compose_request *request, const uint16_t *halves);
+void added_take(const struct band *band, const struct compose_request *request, const uint16_t *halves);

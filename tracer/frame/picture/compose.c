@@ -19,22 +19,36 @@ static const struct channel {
 	int full;
 	uint32_t plane;
 } channels[] = {
-	{ "", "R", 0, COMPOSE_BEAUTY }, { "", "G", 0, COMPOSE_BEAUTY + 1 }, { "", "B", 0, COMPOSE_BEAUTY + 2 },
+	{ "", "R", 0, COMPOSE_BEAUTY },
+	{ "", "G", 0, COMPOSE_BEAUTY + 1 },
+	{ "", "B", 0, COMPOSE_BEAUTY + 2 },
 	{ "", "A", 0, COMPOSE_BEAUTY + 3 },
-	{ "gl", "gl.R", 0, COMPOSE_GL }, { "gl", "gl.G", 0, COMPOSE_GL + 1 }, { "gl", "gl.B", 0, COMPOSE_GL + 2 },
-	{ "gl", "gl.A", 0, COMPOSE_GL + 3 }, { "gl", "gl.depth", 1, COMPOSE_DEPTH },
-	{ "shadow", "shadow.R", 0, COMPOSE_SHADOW }, { "shadow", "shadow.G", 0, COMPOSE_SHADOW + 1 },
+	{ "gl", "gl.R", 0, COMPOSE_GL },
+	{ "gl", "gl.G", 0, COMPOSE_GL + 1 },
+	{ "gl", "gl.B", 0, COMPOSE_GL + 2 },
+	{ "gl", "gl.A", 0, COMPOSE_GL + 3 },
+	{ "gl", "gl.depth", 1, COMPOSE_DEPTH },
+	{ "shadow", "shadow.R", 0, COMPOSE_SHADOW },
+	{ "shadow", "shadow.G", 0, COMPOSE_SHADOW + 1 },
 	{ "shadow", "shadow.B", 0, COMPOSE_SHADOW + 2 },
-	{ "relight", "relight.R", 0, COMPOSE_RELIGHT }, { "relight", "relight.G", 0, COMPOSE_RELIGHT + 1 },
+	{ "relight", "relight.R", 0, COMPOSE_RELIGHT },
+	{ "relight", "relight.G", 0, COMPOSE_RELIGHT + 1 },
 	{ "relight", "relight.B", 0, COMPOSE_RELIGHT + 2 },
-	{ "reflect", "reflect.R", 0, COMPOSE_REFLECT }, { "reflect", "reflect.G", 0, COMPOSE_REFLECT + 1 },
+	{ "reflect", "reflect.R", 0, COMPOSE_REFLECT },
+	{ "reflect", "reflect.G", 0, COMPOSE_REFLECT + 1 },
 	{ "reflect", "reflect.B", 0, COMPOSE_REFLECT + 2 },
-	{ "refract", "refract.R", 0, COMPOSE_REFRACT }, { "refract", "refract.G", 0, COMPOSE_REFRACT + 1 },
+	{ "refract", "refract.R", 0, COMPOSE_REFRACT },
+	{ "refract", "refract.G", 0, COMPOSE_REFRACT + 1 },
 	{ "refract", "refract.B", 0, COMPOSE_REFRACT + 2 },
 	{ "Z", "Z", 1, COMPOSE_Z },
-	{ "N", "N.X", 0, COMPOSE_NORMAL }, { "N", "N.Y", 0, COMPOSE_NORMAL + 1 }, { "N", "N.Z", 0, COMPOSE_NORMAL + 2 },
-	{ "P", "P.X", 1, COMPOSE_POSITION }, { "P", "P.Y", 1, COMPOSE_POSITION + 1 }, { "P", "P.Z", 1, COMPOSE_POSITION + 2 },
-	{ "albedo", "albedo.R", 0, COMPOSE_ALBEDO }, { "albedo", "albedo.G", 0, COMPOSE_ALBEDO + 1 },
+	{ "N", "N.X", 0, COMPOSE_NORMAL },
+	{ "N", "N.Y", 0, COMPOSE_NORMAL + 1 },
+	{ "N", "N.Z", 0, COMPOSE_NORMAL + 2 },
+	{ "P", "P.X", 1, COMPOSE_POSITION },
+	{ "P", "P.Y", 1, COMPOSE_POSITION + 1 },
+	{ "P", "P.Z", 1, COMPOSE_POSITION + 2 },
+	{ "albedo", "albedo.R", 0, COMPOSE_ALBEDO },
+	{ "albedo", "albedo.G", 0, COMPOSE_ALBEDO + 1 },
 	{ "albedo", "albedo.B", 0, COMPOSE_ALBEDO + 2 },
 	{ "id", "id", 1, COMPOSE_ID },
 	{ "layers", "layers", 1, COMPOSE_LAYERS },
@@ -60,54 +74,55 @@ int compose_asks(const struct tracer_options *options, const char *group)
 	return has_group(options->mode == TRACER_NORMALS ? "Z,N,P,albedo,id" : options->aov, group);
 }
 
-/* Request the planes that are wanted, one after the other; none for a picture (job.picture). */
-static struct compose_request request_of(const struct job *job)
+/* Request the planes that are wanted, one after the other; none for a picture (pass.picture). */
+static struct compose_request request_of(const struct band *band)
 {
-	const struct tracer_options *options = job->options;
-	struct compose_request r = { .width = job->width, .height = job->n_rows, .n_passes = job->n_passes,
+	const struct tracer_options *options = band->frame->options;
+	struct compose_request r = { .width = band->frame->width, .height = band->n_rows, .n_passes = band->pass->count,
 		                     .display = (uint32_t)options->display, .normals = options->mode == TRACER_NORMALS,
 		                     .radiant = secondary_transport(options) == TRANSPORT_LINEAR };
 
 	memset(r.half_plane, 0xff, sizeof(r.half_plane));
 	memset(r.float_plane, 0xff, sizeof(r.float_plane));
 	for (size_t i = 0; i < N_CHANNELS; i++) {
-		if (!job->image || !(compose_asks(options, channels[i].group) || added_needs(job, channels[i].group)))
+		if (!band->pass->image ||
+		    !(compose_asks(options, channels[i].group) || added_needs(band->pass, channels[i].group)))
 			continue;
 		if (channels[i].full)
-			r.float_plane[channels[i].plane] = r.n_floats++ * job->n_pixels;
+			r.float_plane[channels[i].plane] = r.n_floats++ * band->n_pixels;
 		else
-			r.half_plane[channels[i].plane] = r.n_halves++ * job->n_pixels;
+			r.half_plane[channels[i].plane] = r.n_halves++ * band->n_pixels;
 	}
 	return r;
 }
 
-static int run_compose(struct job *job, const struct compose_request *r)
+static int run_compose(const struct band *band, const struct compose_request *r)
 {
-	struct tracer *tr = job->tr;
+	const struct frame *frame = band->frame;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	const struct compose_launch *a = LAUNCH(compose, .tables = frame_tables(tr), .windows = b->windows, .frame = b->frame,
-	                                        .cleared = b->cleared, .drawn = b->drawn, .sums = b->sums,
-	                                        .first_pixel = frame_first_pixel(job), .request = *r, .n = job->n_pixels,
-	                                        .halves = b->halves,
-	                                        .floats = b->floats);
+	const struct compose_launch *a = LAUNCH(compose, .tables = frame_tables(tr), .windows = b->windows,
+	                                        .frame = b->frame, .cleared = b->cleared, .drawn = b->drawn,
+	                                        .sums = b->sums, .first_pixel = frame_first_pixel(band), .request = *r,
+	                                        .n = band->n_pixels, .halves = b->halves, .floats = b->floats);
 
-	if (frame_in_packets(job) && !r->radiant)
-		return launch_compose_packet(tr->dev, compose_items(job->width, job->n_rows), a);
-	return launch_compose(tr->dev, job->n_pixels, a);
+	if (frame_in_packets(frame) && !r->radiant)
+		return launch_compose_packet(tr->dev, compose_items(frame->width, band->n_rows), a);
+	return launch_compose(tr->dev, band->n_pixels, a);
 }
 
 /*
  * Eye space is used as world space. OpenEXR's worldToCamera is left-handed (+z forward); its worldToNDC has x and y in
  * [0,1] with y down. Both are for row vectors: their rows are our columns.
  */
-static int describe_camera(const struct job *job, struct image *img)
+static int describe_camera(const struct frame *frame, struct image *img)
 {
 	const float *p;
 	float ndc[16];
 
-	if (job->scene->n_views == 0)
+	if (frame->scene->n_views == 0)
 		return 0;
-	p = job->scene->views[0].projection;
+	p = frame->scene->views[0].projection;
 	for (int col = 0; col < 4; col++) {
 		float w = p[4 * col + 3];
 
@@ -124,85 +139,92 @@ static int describe_camera(const struct job *job, struct image *img)
 	                           (double)ndc[11], (double)ndc[12], (double)ndc[13], (double)ndc[14], (double)ndc[15]);
 }
 
-static int describe_image(const struct job *job, struct image *img)
+static int describe_image(const struct frame *frame, struct image *img)
 {
-	int err = image_set_attribute(img, "relume:frame", "%llu", (unsigned long long)job->scene->frame);
+	int err = image_set_attribute(img, "relume:frame", "%llu", (unsigned long long)frame->scene->frame);
 
 	if (!err)
-		err = image_set_attribute(img, "relume:device", "%s", device_name(job->tr->dev));
+		err = image_set_attribute(img, "relume:device", "%s", device_name(frame->tr->dev));
 	if (!err)
-		err = image_set_attribute(img, "relume:encoding", "%s", job->options->display ? "display" : "linear");
-	if (!err && job->scene->keeps_depth && !job->scene->needs_previous) /* needed by gate R5 (diff/score/depth.c) */
+		err = image_set_attribute(img, "relume:encoding", "%s", frame->options->display ? "display" : "linear");
+	if (!err && frame->scene->keeps_depth && !frame->scene->needs_previous) /* needed by gate R5
+	                                                                           (diff/score/depth.c) */
 		err = image_set_attribute(img, "relume:unknown", "depth");
-	if (!err && dome_is_there(job)) /* needed by gate N (diff/score/harm.c) */
-		err = image_set_attribute(img, "relume:dimmed", "%.3g",
-		                          (double)(sqrtf(DOME_LEFT) * job->scene->dome.lit + 1 - job->scene->dome.lit));
-	return err ? err : describe_camera(job, img);
+	if (!err && dome_is_there(frame)) /* needed by gate N (diff/score/harm.c) */
+		err = image_set_attribute(
+			img, "relume:dimmed", "%.3g",
+			(double)(sqrtf(DOME_LEFT) * frame->scene->dome.lit + 1 - frame->scene->dome.lit));
+	return err ? err : describe_camera(frame, img);
 }
 
-int compose_start(const struct job *job, struct image *img)
+int compose_start(const struct frame *frame, struct image *img)
 {
 	int err = 0;
 
-	img->width = job->width;
-	img->height = job->height;
+	img->width = frame->width;
+	img->height = frame->height;
 	for (size_t i = 0; i < N_CHANNELS && !err; i++) {
 		const struct channel *c = &channels[i];
 
-		if (!compose_asks(job->options, c->group))
+		if (!compose_asks(frame->options, c->group))
 			continue;
 		if (!(c->full ? (void *)image_add_channel(img, c->name, 1) : (void *)image_add_halves(img, c->name)))
 			err = ERR_SYSTEM;
 	}
-	return err ? err : describe_image(job, img);
+	return err ? err : describe_image(frame, img);
 }
 
-int compose_reserve(struct job *job, struct compose_request *request)
+int compose_reserve(const struct band *band, struct compose_request *request)
 {
 	int err;
 
-	*request = request_of(job);
-	err = frame_reserve(job->tr, halves, (size_t)request->n_halves * job->n_pixels);
-	return err ? err : frame_reserve(job->tr, floats, (size_t)request->n_floats * job->n_pixels);
+	*request = request_of(band);
+	err = frame_reserve(band->frame->tr, halves, (size_t)request->n_halves * band->n_pixels);
+	return err ? err : frame_reserve(band->frame->tr, floats, (size_t)request->n_floats * band->n_pixels);
 }
 
-int compose_fetch(struct job *job, const struct compose_request *request, struct image *img)
+int compose_fetch(const struct band *band, const struct compose_request *request)
 {
-	const struct frame_buffers *b = &job->tr->buffers;
+	const struct frame *frame = band->frame;
+	const struct frame_buffers *b = &frame->tr->buffers;
 	const void *halves, *floats, *planes[N_CHANNELS];
 	size_t n = 0;
 	int err, unmapped;
 
 	/* the next map waits for both */
-	err = device_map(job->tr->dev, b->floats.buffer, job->n_pixels * request->n_floats * sizeof(float), 0, &floats);
+	err = device_map(frame->tr->dev, b->floats.buffer, band->n_pixels * request->n_floats * sizeof(float), 0,
+	                 &floats);
 	if (err)
 		return err;
-	err = device_map(job->tr->dev, b->halves.buffer, job->n_pixels * request->n_halves * sizeof(uint16_t), 1, &halves);
+	err = device_map(frame->tr->dev, b->halves.buffer, band->n_pixels * request->n_halves * sizeof(uint16_t), 1,
+	                 &halves);
 	if (!err) {
 		for (size_t i = 0; i < N_CHANNELS; i++) {
 			const struct channel *c = &channels[i];
 
-			if (compose_asks(job->options, c->group))
-				planes[n++] = c->full ? (const void *)((const float *)floats + request->float_plane[c->plane]) :
-				                        (const void *)((const uint16_t *)halves + request->half_plane[c->plane]);
+			if (compose_asks(frame->options, c->group))
+				planes[n++] = c->full ? (const void *)((const float *)floats +
+				                                       request->float_plane[c->plane]) :
+				                        (const void *)((const uint16_t *)halves +
+				                                       request->half_plane[c->plane]);
 		}
-		added_take(job, request, halves);
-		err = image_take_rows(img, planes, job->n_rows);
-		unmapped = device_unmap(job->tr->dev, b->halves.buffer, halves);
+		added_take(band, request, halves);
+		err = image_take_rows(band->pass->image, planes, band->n_rows);
+		unmapped = device_unmap(frame->tr->dev, b->halves.buffer, halves);
 		err = err ? err : unmapped;
 	}
-	unmapped = device_unmap(job->tr->dev, b->floats.buffer, floats);
+	unmapped = device_unmap(frame->tr->dev, b->floats.buffer, floats);
 	return err ? err : unmapped;
 }
 
-int compose_band(struct job *job, struct image *img)
+int compose_band(const struct band *band)
 {
 	struct compose_request r;
-	int err = compose_reserve(job, &r);
+	int err = compose_reserve(band, &r);
 
 	if (!err)
-		err = frame_reserve(job->tr, sums, 1); /* with a single pass, it does not exist yet */
+		err = frame_reserve(band->frame->tr, sums, 1); /* with a single pass, it does not exist yet */
 	if (!err)
-		err = run_compose(job, &r);
-	return err ? err : compose_fetch(job, &r, img);
+		err = run_compose(band, &r);
+	return err ? err : compose_fetch(band, &r);
 }

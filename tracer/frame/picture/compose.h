@@ -8,22 +8,21 @@
  * Set the size, the requested channels and the attributes of an empty image.
  * @return 0 or ERR_SYSTEM (reported)
  */
-int compose_start(const struct job *job, struct image *img);
+int compose_start(const struct frame *frame, struct image *img);
 
 /** Fill in the request for a band's planes, and make room for them. @return 0 or ERR_SYSTEM (reported) */
-int compose_reserve(struct job *job, struct compose_request *request);
+int compose_reserve(const struct band *band, struct compose_request *request);
 
-/** Copy the band's planes to the image of compose_start. @return 0 or ERR_SYSTEM (reported) */
-int compose_fetch(struct job *job, const struct compose_request *request, struct image *img);
+/** Copy the band's planes to pass->image. @return 0 or ERR_SYSTEM (reported) */
+int compose_fetch(const struct band *band, const struct compose_request *request);
 
 /**
- * Fill in a band's rows. Bands are passed from the top down.
- * @param job  buffers.frame has the band's pixels; if there were several passes, buffers.sums has the sums of all but
+ * Fill in a band's rows of pass->image. Bands are passed from the top down.
+ * @param band  buffers.frame has the band's pixels; if there were several passes, buffers.sums has the sums of all but
  *             this one
- * @param img  the image of compose_start
  * @return 0 or ERR_SYSTEM (reported)
  */
-int compose_band(struct job *job, struct image *img);
+int compose_band(const struct band *band);
 
 /** 1 if a picture has the channels of a group. */
 int compose_asks(const struct tracer_options *options, const char *group);

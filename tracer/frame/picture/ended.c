@@ -18,24 +18,24 @@ static int is_ended(const void *user, const struct scene *scene, uint32_t i)
 	return 0;
 }
 
-int ended_count(struct job *job, struct image *img)
+int ended_count(const struct frame *frame, struct image *img, uint64_t *ended)
 {
-	const struct scene *scene = job->scene;
+	const struct scene *scene = frame->scene;
 	const size_t bytes = scene->n_programs * sizeof(uint32_t);
 	uint64_t n = 0;
 	uint32_t *programs;
 	char *draws;
 	int err;
 
-	if (!job->prepared.has_vertex_programs && !job->prepared.has_fragment_programs)
+	if (!frame->prepared.has_vertex_programs && !frame->prepared.has_fragment_programs)
 		return 0;
 	programs = malloc(bytes);
 	if (!programs)
 		return err_report(ERR_SYSTEM, NULL, "out of memory for programs");
-	err = device_read(job->tr->dev, job->tr->buffers.programs.buffer, 0, programs, bytes);
+	err = device_read(frame->tr->dev, frame->tr->buffers.programs.buffer, 0, programs, bytes);
 	for (uint32_t i = 0; i < scene->n_instances && !err; i++)
 		n += (uint64_t)is_ended(programs, scene, i);
-	job->tr->undrawn.ended += n;
+	*ended += n;
 	if (!err && n && img) {
 		draws = scene_draw_list(scene, is_ended, programs);
 		err = draws ? image_set_attribute(img, "relume:ended", "%s", draws) :

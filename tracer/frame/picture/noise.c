@@ -15,14 +15,14 @@ void noise_free(struct noise *noise)
 }
 
 /* Read the brightness of the sums. NULL: the device failed, or out of memory */
-static float *read_sums(struct job *job, int *err)
+static float *read_sums(const struct frame *frame, int *err)
 {
-	const size_t n = (size_t)job->width * job->height;
+	const size_t n = (size_t)frame->width * frame->height;
 	float (*parts)[PASS_PARTS] = malloc(n * sizeof(*parts)), *out = malloc(n * sizeof(*out));
 
 	*err = parts && out ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!*err)
-		*err = device_read(job->tr->dev, job->tr->buffers.sums.buffer, 0, parts, n * sizeof(*parts));
+		*err = device_read(frame->tr->dev, frame->tr->buffers.sums.buffer, 0, parts, n * sizeof(*parts));
 	for (size_t i = 0; i < n && !*err; i++)
 		out[i] = 0.2126f * parts[i][BEAUTY] + 0.7152f * parts[i][BEAUTY + 1] + 0.0722f * parts[i][BEAUTY + 2];
 	free(parts);
@@ -32,13 +32,13 @@ static float *read_sums(struct job *job, int *err)
 	return NULL;
 }
 
-int noise_measure(struct job *job, struct noise *noise, uint32_t passes, float *out)
+int noise_measure(const struct frame *frame, struct noise *noise, uint32_t passes, float *out)
 {
-	const size_t n = (size_t)job->width * job->height;
+	const size_t n = (size_t)frame->width * frame->height;
 	const double before = noise->passes, since = (double)passes - before, all = passes;
 	double squares = 0, total = 0;
 	int err;
-	float *sums = read_sums(job, &err);
+	float *sums = read_sums(frame, &err);
 
 	*out = FLT_MAX;
 	if (err)

@@ -19,4 +19,4 @@ void noise_free(struct noise *noise);
  * @param out     receives the noise; FLT_MAX at the first measurement
  * @return 0, ERR_MEMORY or ERR_SYSTEM (reported)
  */
-int noise_measure(struct job *job, struct noise *noise, uint32_t passes, float *out);
+int noise_measure(const struct frame *frame, struct noise *noise, uint32_t passes, float *out);

@@ -9,50 +9,55 @@
 #include "kernels/gl/pixel.h"
 
 /* Copy the band's pixels from a picture; NULL: unknown. */
-static void start_pixels(const struct job *job, const struct scene_picture *start, struct frame_pixel *pixels)
+static void start_pixels(const struct band *band, const struct scene_picture *start, struct frame_pixel *pixels)
 {
-	memset(pixels, 0, job->n_pixels * sizeof(*pixels));
-	for (uint32_t k = 0; k < job->n_pixels; k++) {
+	memset(pixels, 0, band->n_pixels * sizeof(*pixels));
+	for (uint32_t k = 0; k < band->n_pixels; k++) {
 		struct frame_pixel *p = &pixels[k];
-		const size_t i = frame_first_pixel(job) + (size_t)k;
+		const size_t i = frame_first_pixel(band) + (size_t)k;
 		float gl[4] = { 0 };
 
 		for (int c = 0; c < 4 && start; c++)
-			gl[c] = start->colors ? start->colors[4 * i + (size_t)c] : (float)start->rgba[4 * i + (size_t)c] / 255.0f;
-		pixel_start(p, gl, start ? start->depth[i] : 0, job->bits);
+			gl[c] = start->colors ? start->colors[4 * i + (size_t)c] :
+			                        (float)start->rgba[4 * i + (size_t)c] / 255.0f;
+		pixel_start(p, gl, start ? start->depth[i] : 0, band->frame->bits);
 		p->stencil = start ? start->stencil[i] : 0;
 		if (!start)
 			p->unknown = PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_DEPTH | PIXEL_UNKNOWN_STENCIL;
 	}
 }
 
-int picture_upload_start(struct job *job)
+int picture_upload_start(const struct band *band)
 {
-	const struct scene_picture *start = job->scene->start;
-	struct frame_pixel *pixels = malloc(job->n_pixels * sizeof(*pixels));
+	const struct frame *frame = band->frame;
+	const struct scene_picture *start = frame->scene->start;
+	struct frame_pixel *pixels = malloc(band->n_pixels * sizeof(*pixels));
 	int err = 0;
 
 	if (!pixels)
-		return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", job->width, job->height);
-	for (uint32_t i = 0; i < job->n_samples && !err; i++) {
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %u x %u pixels", frame->width, frame->height);
+	for (uint32_t i = 0; i < band->pass->n_samples && !err; i++) {
 		if (i == 0 || (start && start->samples))
-			start_pixels(job, start && start->samples && job->n_samples > 1 ? &start->samples[i] : start, pixels);
-		err = device_write(job->tr->dev, frame_sample(job, i)->buffer, 0, pixels, job->n_pixels * sizeof(*pixels));
+			start_pixels(band,
+			             start && start->samples && band->pass->n_samples > 1 ? &start->samples[i] : start,
+			             pixels);
+		err = device_write(frame->tr->dev, frame_sample(band->pass, i)->buffer, 0, pixels,
+		                   band->n_pixels * sizeof(*pixels));
 	}
 	free(pixels);
 	return err;
 }
 
 /* Read the band's pixels, or those of one sample, from the device, rounded to GL's frame buffer. */
-static int read_pixels(const struct job *job, union buffer_frame_pixel from, struct frame_pixel *pixels,
+static int read_pixels(const struct band *band, union buffer_frame_pixel from, struct frame_pixel *pixels,
                        struct scene_picture *picture)
 {
-	const struct scene *scene = job->scene;
-	int err = device_read(job->tr->dev, from.buffer, 0, pixels, job->n_pixels * sizeof(*pixels));
+	const struct scene *scene = band->frame->scene;
+	int err = device_read(band->frame->tr->dev, from.buffer, 0, pixels, band->n_pixels * sizeof(*pixels));
 
-	for (uint32_t k = 0; k < job->n_pixels && !err; k++) {
+	for (uint32_t k = 0; k < band->n_pixels && !err; k++) {
 		const struct frame_pixel *p = &pixels[k];
-		const size_t i = frame_first_pixel(job) + (size_t)k;
+		const size_t i = frame_first_pixel(band) + (size_t)k;
 
 		for (int c = 0; c < 4; c++)
 			picture->rgba[4 * i + (size_t)c] = (uint8_t)rintf(clamp01(p->gl[c]) * 255.0f);
@@ -68,37 +73,39 @@ static int read_pixels(const struct job *job, union buffer_frame_pixel from, str
 	return err;
 }
 
-int picture_read_band(const struct job *job, struct scene_picture *picture)
+int picture_read_band(const struct band *band, struct scene_picture *picture)
 {
-	struct frame_pixel *pixels = malloc(job->n_pixels * sizeof(*pixels));
+	const struct frame *frame = band->frame;
+	struct frame_pixel *pixels = malloc(band->n_pixels * sizeof(*pixels));
 	int err;
 
 	if (!pixels)
-		return err_report(ERR_SYSTEM, NULL, "out of memory for %u pixels", job->n_pixels);
-	err = read_pixels(job, job->tr->buffers.frame, pixels, picture);
-	for (uint32_t i = 0; i < SCENE_SAMPLES && picture->samples && job->scene->samples > 1 && !err; i++)
-		err = read_pixels(job, job->tr->buffers.samples[i], pixels, &picture->samples[i]);
+		return err_report(ERR_SYSTEM, NULL, "out of memory for %u pixels", band->n_pixels);
+	err = read_pixels(band, frame->tr->buffers.frame, pixels, picture);
+	for (uint32_t i = 0; i < SCENE_SAMPLES && picture->samples && frame->scene->samples > 1 && !err; i++)
+		err = read_pixels(band, frame->tr->buffers.samples[i], pixels, &picture->samples[i]);
 	free(pixels);
 	return err;
 }
 
 /* Read a plane of the band with one word per pixel. */
-static int take_words(const struct job *job, const struct device_buffer *buffer, void *out)
+static int take_words(const struct band *band, const struct device_buffer *buffer, void *out)
 {
-	return device_read(job->tr->dev, buffer, 0, out, job->n_pixels * sizeof(uint32_t));
+	return device_read(band->frame->tr->dev, buffer, 0, out, band->n_pixels * sizeof(uint32_t));
 }
 
-int picture_count_rows(struct job *job)
+int picture_count_rows(const struct band *band)
 {
-	const uint32_t n = plain_columns(job->width) * job->n_rows;
+	const struct frame *frame = band->frame;
+	const uint32_t n = plain_columns(frame->width) * band->n_rows;
 	const void *mapped;
-	int err = device_map(job->tr->dev, job->tr->buffers.unknown.buffer, n * sizeof(uint32_t), 1, &mapped);
+	int err = device_map(frame->tr->dev, frame->tr->buffers.unknown.buffer, n * sizeof(uint32_t), 1, &mapped);
 
 	if (err)
 		return err;
 	for (uint32_t i = 0; i < n; i++)
-		job->unknown += (uint32_t)__builtin_popcount(((const uint32_t *)mapped)[i]);
-	return device_unmap(job->tr->dev, job->tr->buffers.unknown.buffer, mapped);
+		band->pass->drawn->unknown += (uint32_t)__builtin_popcount(((const uint32_t *)mapped)[i]);
+	return device_unmap(frame->tr->dev, frame->tr->buffers.unknown.buffer, mapped);
 }
 
 static int is_unknown(const struct frame_pixel *p)
@@ -106,45 +113,49 @@ static int is_unknown(const struct frame_pixel *p)
 	return (p->unknown & (PIXEL_UNKNOWN_COLOR | PIXEL_UNKNOWN_TEST)) != 0;
 }
 
-int picture_count_band(struct job *job)
+int picture_count_band(const struct band *band)
 {
+	const struct frame *frame = band->frame;
 	const struct frame_pixel *pixels;
 	const void *mapped;
-	int err = device_map(job->tr->dev, job->tr->buffers.frame.buffer, job->n_pixels * sizeof(*pixels), 1, &mapped);
+	int err = device_map(frame->tr->dev, frame->tr->buffers.frame.buffer, band->n_pixels * sizeof(*pixels), 1,
+	                     &mapped);
 
 	if (err)
 		return err;
 	pixels = mapped;
-	for (uint32_t i = 0; i < job->n_pixels; i++)
-		job->unknown += (uint32_t)is_unknown(&pixels[i]);
-	return device_unmap(job->tr->dev, job->tr->buffers.frame.buffer, mapped);
+	for (uint32_t i = 0; i < band->n_pixels; i++)
+		band->pass->drawn->unknown += (uint32_t)is_unknown(&pixels[i]);
+	return device_unmap(frame->tr->dev, frame->tr->buffers.frame.buffer, mapped);
 }
 
-int picture_take_band(struct job *job, union buffer_float kept, uint32_t stencil)
+int picture_take_band(const struct band *band, union buffer_float kept, uint32_t stencil)
 {
-	struct tracer *tr = job->tr;
+	const struct frame *frame = band->frame;
+	struct tracer *tr = frame->tr;
 	const struct frame_buffers *b = &tr->buffers;
-	const struct scene *scene = job->scene;
-	const size_t first = frame_first_pixel(job);
-	const uint32_t rows = plain_columns(job->width) * job->n_rows;
-	int err = frame_reserve(tr, colors, job->n_pixels);
+	const struct scene *scene = frame->scene;
+	const size_t first = frame_first_pixel(band);
+	const uint32_t rows = plain_columns(frame->width) * band->n_rows;
+	int err = frame_reserve(tr, colors, band->n_pixels);
 
 	if (!err)
-		err = frame_reserve(tr, depths, job->n_pixels);
+		err = frame_reserve(tr, depths, band->n_pixels);
 	if (!err)
 		err = launch_layered_picture(tr->dev, rows,
-		                             LAUNCH(layered_picture, .kept = kept, .width = job->width,
-		                                    .height = job->n_rows, .bits = job->bits, .colors = b->colors,
+		                             LAUNCH(layered_picture, .kept = kept, .width = frame->width,
+		                                    .height = band->n_rows, .bits = frame->bits, .colors = b->colors,
 		                                    .depths = b->depths, .unknown = b->unknown));
 	if (!err)
-		err = take_words(job, b->colors.buffer, job->picture->rgba + 4 * first);
+		err = take_words(band, b->colors.buffer, band->pass->picture->rgba + 4 * first);
 	if (!err)
-		err = take_words(job, b->depths.buffer, job->picture->depth + first);
+		err = take_words(band, b->depths.buffer, band->pass->picture->depth + first);
 	if (!err)
-		err = picture_count_rows(job);
+		err = picture_count_rows(band);
 	if (scene->start)
-		memcpy(job->picture->stencil + first, scene->start->stencil + first, job->n_pixels);
+		memcpy(band->pass->picture->stencil + first, scene->start->stencil + first, band->n_pixels);
 	else
-		memset(job->picture->stencil + first, (int)(stencil & pixel_bits_mask(pixel_stencil_bits(job->bits))), job->n_pixels);
+		memset(band->pass->picture->stencil + first,
+		       (int)(stencil & pixel_bits_mask(pixel_stencil_bits(frame->bits))), band->n_pixels);
 	return err;
 }

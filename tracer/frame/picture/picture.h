@@ -4,21 +4,21 @@
 #include "tracer/frame/common/frame.h"
 
 /** Upload the band's pixels from before the scene, or mark them as unknown. @return 0 or ERR_SYSTEM (reported) */
-int picture_upload_start(struct job *job);
+int picture_upload_start(const struct band *band);
 
 /** Read the band from buffers.frame. @param picture as in tracer_render_picture, except for `unknown` @return 0 or
  * ERR_SYSTEM (reported) */
-int picture_read_band(const struct job *job, struct scene_picture *picture);
+int picture_read_band(const struct band *band, struct scene_picture *picture);
 
-/** Add the band's unknown pixels, in buffers.frame or in buffers.unknown, to job->unknown. @return 0, ERR_MEMORY or
+/** Add the band's unknown pixels, in buffers.frame or in buffers.unknown, to drawn->unknown. @return 0, ERR_MEMORY or
  * ERR_SYSTEM (reported) */
-int picture_count_band(struct job *job);
-int picture_count_rows(struct job *job);
+int picture_count_band(const struct band *band);
+int picture_count_rows(const struct band *band);
 
 /**
- * Read the band into job->picture, and add its unknown pixels, in buffers.unknown, to job->unknown.
+ * Read the band into pass->picture, and add its unknown pixels, in buffers.unknown, to drawn->unknown.
  * @param kept     pixels that the kernel layered kept
  * @param stencil  value that the stencil buffer was cleared to, if the scene starts without a picture
  * @return 0 or ERR_SYSTEM (reported)
  */
-int picture_take_band(struct job *job, union buffer_float kept, uint32_t stencil);
+int picture_take_band(const struct band *band, union buffer_float kept, uint32_t stencil);

@@ -19,9 +19,9 @@ struct source {
 	struct opacity_blocks *blocks; /* [n_textures]; made when they are first needed */
 };
 
-int opacity_is_known(const struct job *job, const struct accel_space *space)
+int opacity_is_known(const struct frame *frame, const struct accel_space *space)
 {
-	return frame_in_packets(job) && !hook_objects_in(job, space);
+	return frame_in_packets(frame) && !hook_objects_in(frame, space);
 }
 
 /* The opacity of a whole instance, as transparency_of_hit finds it. */
@@ -141,7 +141,7 @@ static size_t choose_items(struct opacity_met *met, struct pool_item *items, siz
 }
 
 /* Give words to instances whose surfaces have to be sampled, as far as something is known of them. */
-static int place_words(struct job *job, struct source *sources, uint32_t n, struct opacity_blocks *blocks)
+static int place_words(struct frame *frame, struct source *sources, uint32_t n, struct opacity_blocks *blocks)
 {
 	struct pool_item *items = calloc(n + (size_t)1, sizeof(*items));
 	XXH3_state_t *state = XXH3_createState();
@@ -155,9 +155,9 @@ static int place_words(struct job *job, struct source *sources, uint32_t n, stru
 		name_words(&sources[i], state, items[i].hash);
 	}
 	if (!err)
-		n = (uint32_t)choose_items(&job->tr->opacity_met, items, n);
+		n = (uint32_t)choose_items(&frame->tr->opacity_met, items, n);
 	if (!err)
-		err = pool_place(&job->tr->opacity, job->tr->dev, items, n, fill_words);
+		err = pool_place(&frame->tr->opacity, frame->tr->dev, items, n, fill_words);
 	for (uint32_t i = 0; i < n && !err; i++)
 		((const struct source *)items[i].object)->instance->opacity = OPACITY_WORDS + items[i].place;
 	XXH3_freeState(state);
@@ -165,11 +165,11 @@ static int place_words(struct job *job, struct source *sources, uint32_t n, stru
 	return err;
 }
 
-int opacity_place(struct job *job)
+int opacity_place(struct frame *frame)
 {
-	const struct scene *scene = job->scene;
-	const struct prepared *p = &job->prepared;
-	struct tracer *tr = job->tr;
+	const struct scene *scene = frame->scene;
+	const struct prepared *p = &frame->prepared;
+	struct tracer *tr = frame->tr;
 	struct opacity_blocks *blocks;
 	struct source *sources;
 	uint32_t n = 0;
@@ -195,8 +195,8 @@ int opacity_place(struct job *job)
 				.instance = instance,
 			};
 	}
-	if (n && frame_in_packets(job) && !err)
-		err = place_words(job, sources, n, blocks);
+	if (n && frame_in_packets(frame) && !err)
+		err = place_words(frame, sources, n, blocks);
 	tr->trees.opacity = tr->opacity.words;
 	for (uint32_t i = 0; i < scene->n_textures && blocks; i++)
 		opacity_blocks_free(&blocks[i]);

@@ -11,7 +11,7 @@
  * Set the instances' opacity and upload their words. The instances' places, meshes and trees must be known.
  * @return 0, ERR_MEMORY or ERR_SYSTEM (reported)
  */
-int opacity_place(struct job *job);
+int opacity_place(struct frame *frame);
 
 /** 1 if the device's kernels know what the surfaces of a space let pass. */
-int opacity_is_known(const struct job *job, const struct accel_space *space);
+int opacity_is_known(const struct frame *frame, const struct accel_space *space);

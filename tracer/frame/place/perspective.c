@@ -84,7 +84,8 @@ static void find_factors(const struct scene_mesh *mesh, const float (*clip)[4], 
 	for (uint32_t v = 0; v < mesh->vertex_count; v++)
 		for (int row = 0; row < 4; row++) {
 			for (int k = 0; k < 4; k++)
-				a[row][k] += (double)mesh->position[4 * (size_t)v + (size_t)row] * mesh->position[4 * (size_t)v + (size_t)k];
+				a[row][k] += (double)mesh->position[4 * (size_t)v + (size_t)row] *
+				             mesh->position[4 * (size_t)v + (size_t)k];
 			for (int k = 0; k < 3; k++)
 				b[row][k] += (double)mesh->position[4 * (size_t)v + (size_t)row] * clip[v][parts[k]];
 		}
@@ -108,14 +109,14 @@ static void find_factors(const struct scene_mesh *mesh, const float (*clip)[4], 
 }
 
 /* Read the clip positions of a prepared instance; the caller frees them. */
-static int read_clips(const struct job *job, uint32_t i, float (**clip)[4])
+static int read_clips(const struct frame *frame, uint32_t i, float (**clip)[4])
 {
-	const struct geometry *g = &job->prepared.geometries[i];
+	const struct geometry *g = &frame->prepared.geometries[i];
 
 	*clip = calloc((size_t)g->vertex_count + 1, sizeof(**clip));
 	if (!*clip)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	return device_read(job->tr->dev, job->tr->buffers.clips.buffer, g->vertex_first * sizeof(**clip), *clip,
+	return device_read(frame->tr->dev, frame->tr->buffers.clips.buffer, g->vertex_first * sizeof(**clip), *clip,
 	                   g->vertex_count * sizeof(**clip));
 }
 
@@ -134,13 +135,14 @@ static void add_depth(const float clip[4], double sums[5])
 	sums[4] += share * z * w;
 }
 
-static int look_at(const struct job *job, uint32_t i, struct found *f)
+static int look_at(const struct frame *frame, uint32_t i, struct found *f)
 {
-	const struct prepared *p = &job->prepared;
+	const struct prepared *p = &frame->prepared;
 	const struct geometry *g = &p->geometries[i];
-	const struct scene_mesh *mesh = job->scene->meshes[job->scene->instances[p->instances[i].scene_instance].mesh];
+	const struct scene_mesh *mesh =
+		frame->scene->meshes[frame->scene->instances[p->instances[i].scene_instance].mesh];
 	float (*clip)[4];
-	int err = read_clips(job, i, &clip);
+	int err = read_clips(frame, i, &clip);
 
 	for (uint32_t v = 0; v < g->vertex_count && !err; v++) {
 		add_depth(clip[v], f->sums);
@@ -182,10 +184,10 @@ static void make_projection(const struct scene_view *view, const struct found *f
 }
 
 /* Find the views of the scene that have no perspective and are drawn only by programs. */
-static void find_views(const struct job *job, struct found *found)
+static void find_views(const struct frame *frame, struct found *found)
 {
-	const struct scene *s = job->scene;
-	const struct prepared *p = &job->prepared;
+	const struct scene *s = frame->scene;
+	const struct prepared *p = &frame->prepared;
 
 	for (uint32_t v = 0; v < s->n_views; v++) {
 		const float *m = s->views[v].projection;
@@ -211,18 +213,18 @@ static int has_own_depth(const struct view *view, const float clip[4])
 }
 
 /* Check the depths of a prepared instance. *own: set if one differs from the projection's */
-static int look_at_depths(const struct job *job, uint32_t i, int *own)
+static int look_at_depths(const struct frame *frame, uint32_t i, int *own)
 {
-	const struct prepared *p = &job->prepared;
+	const struct prepared *p = &frame->prepared;
 	const struct geometry *g = &p->geometries[i];
-	const struct scene_instance *from = &job->scene->instances[p->instances[i].scene_instance];
+	const struct scene_instance *from = &frame->scene->instances[p->instances[i].scene_instance];
 	const struct view *view = &p->views[g->view];
 	float (*clip)[4];
 	int err;
 
-	if (!prepare_is_displaced(job->scene, from))
+	if (!prepare_is_displaced(frame->scene, from))
 		return 0;
-	err = read_clips(job, i, &clip);
+	err = read_clips(frame, i, &clip);
 	for (uint32_t v = 0; v < g->vertex_count && !err && !*own; v++)
 		*own = has_own_depth(view, clip[v]);
 	free(clip);
@@ -236,10 +238,10 @@ static int is_given(const struct found *f)
 }
 
 /* @return 1 if any view is given a perspective */
-static int give_projections(struct job *job, const struct found *found)
+static int give_projections(struct frame *frame, const struct found *found)
 {
-	const struct scene *s = job->scene;
-	struct prepared *p = &job->prepared;
+	const struct scene *s = frame->scene;
+	struct prepared *p = &frame->prepared;
 	int given = 0;
 
 	for (uint32_t i = 0; i < p->n_instances; i++) {
@@ -254,40 +256,40 @@ static int give_projections(struct job *job, const struct found *found)
 	return given;
 }
 
-int perspective_find(struct job *job, int *changed)
+int perspective_find(struct frame *frame, int *changed)
 {
-	const struct scene *s = job->scene;
-	const struct prepared *p = &job->prepared;
+	const struct scene *s = frame->scene;
+	const struct prepared *p = &frame->prepared;
 	struct found *found = calloc((size_t)s->n_views + 1, sizeof(*found));
 	int err = 0;
 
 	*changed = 0;
 	if (!found)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	find_views(job, found);
+	find_views(frame, found);
 	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
 		struct found *f = &found[s->instances[p->instances[i].scene_instance].view];
 
 		if (f->perspective)
-			err = look_at(job, i, f);
+			err = look_at(frame, i, f);
 	}
 	if (!err)
-		*changed = give_projections(job, found);
+		*changed = give_projections(frame, found);
 	for (uint32_t i = 0; i < p->n_instances && !err && *changed; i++) {
 		struct found *f = &found[s->instances[p->instances[i].scene_instance].view];
 
 		if (is_given(f))
-			err = look_at_depths(job, i, &f->is_bent);
+			err = look_at_depths(frame, i, &f->is_bent);
 	}
 	if (!err && *changed)
-		give_projections(job, found);
+		give_projections(frame, found);
 	free(found);
 	return err;
 }
 
-int perspective_check_depths(struct job *job)
+int perspective_check_depths(struct frame *frame)
 {
-	struct prepared *p = &job->prepared;
+	struct prepared *p = &frame->prepared;
 	int err = 0;
 
 	for (uint32_t k = 0; k < p->n_segments && !err; k++) {
@@ -295,7 +297,7 @@ int perspective_check_depths(struct job *job)
 		int own = 0;
 
 		for (uint32_t i = 0; i < segment->instance_count && segment->mode != CAMERA_COLUMN && !err && !own; i++)
-			err = look_at_depths(job, segment->instance_first + i, &own);
+			err = look_at_depths(frame, segment->instance_first + i, &own);
 		if (own)
 			segment->mode = CAMERA_COLUMN;
 	}

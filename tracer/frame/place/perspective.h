@@ -5,18 +5,18 @@
  */
 #pragma once
 
-struct job;
+struct frame;
 
 /**
  * Set a perspective for views that have none and are drawn only by programs, with varying w. Call after the vertex
  * stage. If *changed is set, eye positions have changed and the vertex stage must run again.
  * @return 0 or ERR_* (reported, except ERR_MEMORY)
  */
-int perspective_find(struct job *job, int *changed);
+int perspective_find(struct frame *frame, int *changed);
 
 /**
  * Use columns for segments where a program's depths differ from the projection's: the nearest fragment along a ray need
  * not be the nearest by depth there. Call after perspective_find.
  * @return 0 or ERR_* (reported, except ERR_MEMORY)
  */
-int perspective_check_depths(struct job *job);
+int perspective_check_depths(struct frame *frame);

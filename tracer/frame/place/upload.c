@@ -7,9 +7,9 @@
 #include "gl_tokens.h"
 #include "tracer/frame/hook/hook_objects.h"
 
-int upload_attributes(struct job *job)
+int upload_attributes(struct frame *frame)
 {
-	const struct scene *scene = job->scene;
+	const struct scene *scene = frame->scene;
 	struct pool_item *items = calloc(scene->n_meshes + (size_t)1, sizeof(*items));
 	int err;
 
@@ -18,21 +18,21 @@ int upload_attributes(struct job *job)
 	for (uint32_t i = 0; i < scene->n_meshes; i++)
 		items[i] = (struct pool_item){ { scene->meshes[i]->hash[0], scene->meshes[i]->hash[1] },
 			                       prepare_attribute_words(scene->meshes[i]), scene->meshes[i], 0 };
-	err = pool_place(&job->tr->attributes, job->tr->dev, items, scene->n_meshes, prepare_fill_attributes);
-	for (uint32_t i = 0; i < job->prepared.n_instances && !err; i++) {
-		uint32_t mesh = scene->instances[job->prepared.instances[i].scene_instance].mesh;
+	err = pool_place(&frame->tr->attributes, frame->tr->dev, items, scene->n_meshes, prepare_fill_attributes);
+	for (uint32_t i = 0; i < frame->prepared.n_instances && !err; i++) {
+		uint32_t mesh = scene->instances[frame->prepared.instances[i].scene_instance].mesh;
 
-		prepare_layout(scene->meshes[mesh], items[mesh].place, &job->prepared.geometries[i]);
+		prepare_layout(scene->meshes[mesh], items[mesh].place, &frame->prepared.geometries[i]);
 	}
 	free(items);
 	return err;
 }
 
 /* Uploads the scene's meshes and those of expanded lines and points. */
-int upload_indices(struct job *job)
+int upload_indices(struct frame *frame)
 {
-	const struct scene *scene = job->scene;
-	struct prepared *p = &job->prepared;
+	const struct scene *scene = frame->scene;
+	struct prepared *p = &frame->prepared;
 	struct pool_item *items = calloc((size_t)scene->n_meshes + p->n_instances + 2, sizeof(*items));
 	size_t n = scene->n_meshes, of_objects;
 	int err;
@@ -43,26 +43,26 @@ int upload_indices(struct job *job)
 		items[i] = (struct pool_item){ { scene->meshes[i]->hash[0], scene->meshes[i]->hash[1] },
 			                       prepare_index_words(scene->meshes[i]), scene->meshes[i], 0 };
 	for (uint32_t i = 0; i < p->n_instances; i++)
-		if (job->extra[i])
-			items[n++] = (struct pool_item){ { job->extra[i]->hash[0], job->extra[i]->hash[1] },
-				                         prepare_index_words(job->extra[i]), job->extra[i], 0 };
+		if (frame->extra[i])
+			items[n++] = (struct pool_item){ { frame->extra[i]->hash[0], frame->extra[i]->hash[1] },
+				                         prepare_index_words(frame->extra[i]), frame->extra[i], 0 };
 	of_objects = n;
-	if (job->objects.n)
-		items[n++] = (struct pool_item){ { job->objects.mesh.hash[0], job->objects.mesh.hash[1] },
-			                         prepare_index_words(&job->objects.mesh), &job->objects.mesh, 0 };
-	err = pool_place(&job->tr->indices, job->tr->dev, items, n, prepare_fill_indices);
+	if (frame->objects.n)
+		items[n++] = (struct pool_item){ { frame->objects.mesh.hash[0], frame->objects.mesh.hash[1] },
+			                         prepare_index_words(&frame->objects.mesh), &frame->objects.mesh, 0 };
+	err = pool_place(&frame->tr->indices, frame->tr->dev, items, n, prepare_fill_indices);
 	n = scene->n_meshes;
 	for (uint32_t i = 0; i < p->n_instances && !err; i++) {
 		uint32_t mesh = scene->instances[p->instances[i].scene_instance].mesh;
-		const struct pool_item *item = job->extra[i] ? &items[n++] : &items[mesh];
+		const struct pool_item *item = frame->extra[i] ? &items[n++] : &items[mesh];
 		const struct scene_mesh *from = item->object;
 
 		p->geometries[i].index = item->place;
 		p->geometries[i].primitive_draw =
 			from->primitive_draw ? item->place + from->primitive_count * (uint32_t)from->kind : SCENE_NONE;
 	}
-	for (uint32_t i = 0; i < job->objects.n && !err; i++)
-		hook_objects_stand(job, i, items[of_objects].place);
+	for (uint32_t i = 0; i < frame->objects.n && !err; i++)
+		hook_objects_stand(frame, i, items[of_objects].place);
 	free(items);
 	return err;
 }
@@ -103,9 +103,9 @@ static int describe_texture(const struct scene_texture *t, uint32_t place, struc
 	return 0;
 }
 
-static int upload_textures(struct job *job)
+static int upload_textures(struct frame *frame)
 {
-	const struct scene *scene = job->scene;
+	const struct scene *scene = frame->scene;
 	struct pool_item *items = calloc(scene->n_textures + (size_t)1, sizeof(*items));
 	struct texture_image *images = calloc(scene->n_textures + (size_t)1, sizeof(*images));
 	int err = 0;
@@ -117,21 +117,21 @@ static int upload_textures(struct job *job)
 	for (uint32_t i = 0; i < scene->n_textures; i++)
 		items[i] = (struct pool_item){ { scene->textures[i]->hash[0], scene->textures[i]->hash[1] },
 			                       scene->textures[i]->n_bytes / 4, scene->textures[i], 0 };
-	err = pool_place(&job->tr->texels, job->tr->dev, items, scene->n_textures, fill_texels);
+	err = pool_place(&frame->tr->texels, frame->tr->dev, items, scene->n_textures, fill_texels);
 	for (uint32_t i = 0; i < scene->n_textures && !err; i++)
 		err = describe_texture(scene->textures[i], items[i].place, &images[i]);
 	if (!err)
-		err = frame_upload(job->tr, textures, images, scene->n_textures);
+		err = frame_upload(frame->tr, textures, images, scene->n_textures);
 done:
 	free(items);
 	free(images);
 	return err;
 }
 
-int upload_state(struct job *job)
+int upload_state(struct frame *frame)
 {
-	const struct scene *s = job->scene;
-	struct tracer *tr = job->tr;
+	const struct scene *s = frame->scene;
+	struct tracer *tr = frame->tr;
 	int err = frame_upload(tr, materials, s->materials, s->n_materials);
 
 	if (!err)
@@ -145,7 +145,7 @@ int upload_state(struct job *job)
 	if (!err)
 		err = frame_upload(tr, programs, s->programs, s->n_programs);
 	if (!err)
-		err = upload_textures(job);
+		err = upload_textures(frame);
 	return err;
 }
 
@@ -167,7 +167,8 @@ static int upload_pool(struct tracer *tr, enum blas_part part, struct device_buf
 	}
 	if (err || from == pool.n)
 		return err;
-	err = device_write(tr->dev, *buffer, from * size, (const char *)pool.items + from * size, (pool.n - from) * size);
+	err = device_write(tr->dev, *buffer, from * size, (const char *)pool.items + from * size,
+	                   (pool.n - from) * size);
 	if (err)
 		tr->tree_room[part] = 0;
 	return err;
@@ -205,12 +206,12 @@ static int upload_mesh_trees(struct tracer *tr, int asks_boxes)
 	return err;
 }
 
-int upload_trees(struct job *job)
+int upload_trees(struct frame *frame)
 {
-	struct tracer *tr = job->tr;
-	int err = upload_mesh_trees(tr, job->options->hook && job->options->hook->asks_boxes);
+	struct tracer *tr = frame->tr;
+	int err = upload_mesh_trees(tr, frame->options->hook && frame->options->hook->asks_boxes);
 
 	return err ? err :
-	             traverse_upload_tlases(tr->dev, tr->accel, job->prepared.instances, job->prepared.n_instances,
+	             traverse_upload_tlases(tr->dev, tr->accel, frame->prepared.instances, frame->prepared.n_instances,
 	                                    &tr->trees);
 }

@@ -4,12 +4,12 @@
 #include "tracer/frame/common/frame.h"
 
 /** Upload attributes or indices of the frame's meshes to the pools, and set their offsets in the geometries. */
-int upload_attributes(struct job *job);
-int upload_indices(struct job *job);
+int upload_attributes(struct frame *frame);
+int upload_indices(struct frame *frame);
 
 /** Upload materials, lights, texture units, textures, current values, stipples and programs. */
-int upload_state(struct job *job);
+int upload_state(struct frame *frame);
 
 /** Upload the trees of accel_build_frame that the device's kernels traverse. Mesh trees are uploaded only if they
  * changed. */
-int upload_trees(struct job *job);
+int upload_trees(struct frame *frame);

@@ -37,7 +37,8 @@ static float polygon_offset(const struct expand_input *in, const struct expand_e
 /* 1 if a triangle is front facing (sign of its area in clip space). */
 static int is_front(const struct expand_input *in, const uint32_t *index)
 {
-	const float *a = in->vertices[index[0]].clip, *b = in->vertices[index[1]].clip, *c = in->vertices[index[2]].clip;
+	const float *a = in->vertices[index[0]].clip, *b = in->vertices[index[1]].clip,
+		    *c = in->vertices[index[2]].clip;
 	float det = a[3] * (b[0] * c[1] - c[0] * b[1]) + b[3] * (c[0] * a[1] - a[0] * c[1]) +
 	            c[3] * (a[0] * b[1] - b[0] * a[1]);
 

@@ -89,7 +89,8 @@ float expand_plane_distance(const struct expand_input *in, const struct expand_e
 		return clip_distance(e->v.clip, plane, in->guards);
 	plane -= EXPAND_VOLUME_PLANES;
 	p = in->material->clip_plane_eye[plane];
-	return in->material->clip_plane_mask >> plane & 1 ? p[0] * at[0] + p[1] * at[1] + p[2] * at[2] + p[3] * at[3] : 0;
+	return in->material->clip_plane_mask >> plane & 1 ? p[0] * at[0] + p[1] * at[1] + p[2] * at[2] + p[3] * at[3] :
+	                                                    0;
 }
 
 /* Primitives partly outside the view pass through Mesa's clipper and are projected by it, even if it does not clip

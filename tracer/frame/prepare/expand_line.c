@@ -135,7 +135,8 @@ static void add_line_rectangle(const struct expand_input *in, struct expanded *o
                                const struct expand_end *b, uint32_t draw)
 {
 	float dx = a->x - b->x, dy = a->y - b->y, area = dx * dx + dy * dy;
-	float scale = fmaxf(in->material->line_width, 1) * 0.5f / sqrtf(area), drawn[3] = { 0, -EVERYWHERE, EVERYWHERE };
+	float scale = fmaxf(in->material->line_width, 1) * 0.5f / sqrtf(area),
+	      drawn[3] = { 0, -EVERYWHERE, EVERYWHERE };
 	int32_t side_x = snap_sampled(in, -dy * scale), side_y = snap_sampled(in, dx * scale), x[4], y[4], row[4];
 	struct extent columns, rows;
 
@@ -197,8 +198,9 @@ static void add_smooth_line(const struct expand_input *in, struct expanded *out,
 		const struct expand_end *e = k >= 2 ? b : a;
 		float along = e == b ? 0.5f : -0.5f, across = k == 1 || k == 2 ? half : -half;
 
-		expand_add_smooth_corner(in, out, e, e->x + (along * dx - across * dy), e->y + (along * dy + across * dx),
-		                  (float[4]){ -across, half, e == b ? half_length : -half_length, half_length });
+		expand_add_smooth_corner(in, out, e, e->x + (along * dx - across * dy),
+		                         e->y + (along * dy + across * dx),
+		                         (float[4]){ -across, half, e == b ? half_length : -half_length, half_length });
 	}
 	expand_add_triangles(in, out, draw);
 }

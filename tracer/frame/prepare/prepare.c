@@ -171,7 +171,8 @@ void prepare_fill_indices(const void *object, uint32_t *words)
 static float box_pad(const float (*positions)[4], uint32_t n, const float clip_from_box[16],
                      const struct instance *instance, const struct view *view)
 {
-	float lo[4] = { INFINITY, INFINITY, INFINITY, INFINITY }, hi[4] = { -INFINITY, -INFINITY, -INFINITY, -INFINITY };
+	float lo[4] = { INFINITY, INFINITY, INFINITY, INFINITY },
+	      hi[4] = { -INFINITY, -INFINITY, -INFINITY, -INFINITY };
 	float farthest = 0, size = 0, eye = 0, shrink = 0;
 
 	for (uint32_t v = 0; v < n; v++)
@@ -294,7 +295,8 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	                   SCENE_NO_NORMALS | SCENE_SHOWN_COUNTER | SCENE_SHOWN_CLOCKWISE);
 
 	p->shapes[p->n_instances] = shape;
-	mat4_sums[scene->views[from->view].x87].mul(g->clip_from_obj, scene->views[from->view].projection, from->modelview);
+	mat4_sums[scene->views[from->view].x87].mul(g->clip_from_obj, scene->views[from->view].projection,
+	                                            from->modelview);
 	memcpy(g->eye_from_obj, from->modelview, sizeof(g->eye_from_obj));
 	g->away = distance_of_origin(from->modelview);
 	normal_matrix(from->modelview, m->rescale_normal && !m->normalize, g->normal_matrix);
@@ -363,7 +365,8 @@ static void add_shapes(const struct scene *scene, struct prepared *p, struct seg
 
 	if (kind != SCENE_TRIANGLES) {
 		if (screen)
-			add_instance(scene, p, segment, index, kind == SCENE_LINES ? PREPARED_LINES : PREPARED_POINTS, 0);
+			add_instance(scene, p, segment, index, kind == SCENE_LINES ? PREPARED_LINES : PREPARED_POINTS,
+			             0);
 		return;
 	}
 	if (front == back) {
@@ -448,7 +451,8 @@ static uint32_t cut_scene(const struct scene *scene, struct cut *cuts)
 		clear = clears;
 	}
 	if (clear < scene->n_clears)
-		cuts[n++] = (struct cut){ scene->n_instances, scene->n_instances, CAMERA_COLUMN, clear, scene->n_clears - clear };
+		cuts[n++] = (struct cut){ scene->n_instances, scene->n_instances, CAMERA_COLUMN, clear,
+			                  scene->n_clears - clear };
 	return n;
 }
 
@@ -527,8 +531,8 @@ int prepare_frame(const struct scene *scene, const float shift[2], struct prepar
 	out->scene_views = calloc(most, sizeof(*out->scene_views));
 	out->skies = calloc(scene->n_instances + (size_t)1, sizeof(*out->skies));
 	out->depths = calloc(scene->n_instances + (size_t)1, sizeof(*out->depths));
-	if (!cuts || !out->segments || !out->instances || !out->geometries || !out->shapes || !out->culls || !out->views ||
-	    !out->scene_views || !out->skies || !out->depths || scene_find_skies(scene, out->skies) != 0)
+	if (!cuts || !out->segments || !out->instances || !out->geometries || !out->shapes || !out->culls ||
+	    !out->views || !out->scene_views || !out->skies || !out->depths || scene_find_skies(scene, out->skies) != 0)
 		goto fail;
 	scene_find_depths(scene, out->depths);
 	n_cuts = cut_scene(scene, cuts);
@@ -536,8 +540,11 @@ int prepare_frame(const struct scene *scene, const float shift[2], struct prepar
 		struct segment *segment = &out->segments[out->n_segments++];
 		const uint32_t layer = layer_of(scene, &cuts[r], &layers);
 
-		*segment = (struct segment){ .clear_first = cuts[r].clear_first, .clear_count = cuts[r].clear_count,
-			                     .view = SCENE_NONE, .mode = cuts[r].mode, .instance_first = out->n_instances };
+		*segment = (struct segment){ .clear_first = cuts[r].clear_first,
+			                     .clear_count = cuts[r].clear_count,
+			                     .view = SCENE_NONE,
+			                     .mode = cuts[r].mode,
+			                     .instance_first = out->n_instances };
 		if (cuts[r].first == cuts[r].end || !draws_to_window(scene, cuts[r].first))
 			continue;
 		segment->multisample = multisampled(scene, cuts[r].first);
