@@ -8,12 +8,16 @@
 #include "kernels/camera/camera.h"
 #include "kernels/frame/light/sample.h"
 #include "scene/before.h"
+#include "tracer/frame/bands/buffers.h"
 #include "tracer/frame/bands/ways.h"
 #include "tracer/frame/hook/hook_objects.h"
 #include "tracer/frame/hook/hooks.h"
+#include "tracer/frame/light/buffers.h"
+#include "tracer/frame/light/dome.h"
 #include "tracer/frame/light/emitters.h"
 #include "tracer/frame/light/photons.h"
 #include "tracer/frame/light/secondary.h"
+#include "tracer/frame/picture/buffers.h"
 #include "tracer/frame/picture/compose.h"
 #include "tracer/frame/picture/ended.h"
 #include "tracer/frame/picture/noise.h"
@@ -21,15 +25,31 @@
 #include "tracer/frame/place/upload.h"
 #include "tracer/frame/prepare/expand.h"
 
+/* A tracer with its rooms' buffers. */
+struct tracer_rooms {
+	struct tracer tracer;
+	struct hook_buffers hook;
+	struct light_buffers light;
+	struct dome_buffers dome;
+	struct picture_buffers picture;
+	struct band_buffers band;
+};
+
 int tracer_create(struct tracer **out, struct device *dev)
 {
-	struct tracer *tr = calloc(1, sizeof(*tr));
+	struct tracer_rooms *rooms = calloc(1, sizeof(*rooms));
+	struct tracer *tr = &rooms->tracer;
 
-	if (!tr)
+	if (!rooms)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	tr->dev = dev;
+	tr->hook = &rooms->hook;
+	tr->light = &rooms->light;
+	tr->dome = &rooms->dome;
+	tr->picture = &rooms->picture;
+	tr->band = &rooms->band;
 	if (accel_create(&tr->accel) != 0) {
-		free(tr);
+		free(rooms);
 		return ERR_SYSTEM;
 	}
 	tr->accel->wide = traverse_families[device_family(dev)].wide;
@@ -37,14 +57,24 @@ int tracer_create(struct tracer **out, struct device *dev)
 	return 0;
 }
 
-#define RELEASE(element, name) device_release(tr->dev, &tr->buffers.name.buffer);
+#define RELEASE(room) device_release(tr->dev, &(room).buffer);
+#define RELEASE_PLACED(element, name) RELEASE(tr->placed.name)
+#define RELEASE_LIGHT(element, name) RELEASE(tr->light->name)
+#define RELEASE_DOME(element, name) RELEASE(tr->dome->name)
+#define RELEASE_PICTURE(element, name) RELEASE(tr->picture->name)
+#define RELEASE_BAND(element, name) RELEASE(tr->band->name)
 
+/* Release what a frame does not keep from band to band. */
 static void release_band(struct tracer *tr)
 {
-	FRAME_BAND_BUFFERS(RELEASE)
-	device_release(tr->dev, &tr->buffers.frame.buffer);
+	LIGHT_BUFFERS(RELEASE_LIGHT)
+	DOME_BUFFERS(RELEASE_DOME)
+	PICTURE_BUFFERS(RELEASE_PICTURE)
+	BAND_BUFFERS(RELEASE_BAND)
+	RELEASE(tr->hook->answers)
+	RELEASE(tr->pixels.frame)
 	for (int i = 0; i < SCENE_SAMPLES; i++)
-		device_release(tr->dev, &tr->buffers.samples[i].buffer);
+		RELEASE(tr->pixels.samples[i])
 }
 
 void tracer_destroy(struct tracer **tracer)
@@ -59,13 +89,17 @@ void tracer_destroy(struct tracer **tracer)
 	pool_free(&tr->texels, tr->dev);
 	pool_free(&tr->opacity, tr->dev);
 	free(tr->opacity_met.names);
-	FRAME_WHOLE_BUFFERS(RELEASE)
+	PLACED_BUFFERS(RELEASE_PLACED)
+	RELEASE(tr->hook->parameters)
+	RELEASE(tr->hook->objects)
+	RELEASE(tr->light->emitters)
+	RELEASE(tr->picture->sums)
 	release_band(tr);
 	traverse_release(tr->dev, &tr->trees);
 	picture_kept_free(&tr->drawn);
-	free(tr->counts);
-	free(tr->first);
-	free(tr);
+	free(tr->band->host_counts);
+	free(tr->band->host_first);
+	free(tr); /* the first member of its rooms */
 	*tracer = NULL;
 }
 

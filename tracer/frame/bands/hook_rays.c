@@ -1,6 +1,7 @@
 #include "tracer/frame/bands/hook_rays.h"
 
 #include "kernels/frame/light/sample.h"
+#include "tracer/frame/bands/buffers.h"
 #include "tracer/frame/bands/segment.h"
 #include "tracer/frame/hook/hooks.h"
 #include "tracer/frame/light/secondary.h"
@@ -13,46 +14,34 @@ int hook_rays_stand_in(const struct frame *frame, const struct segment *segment)
 	       frame->prepared.scene_views[best->view].space == frame->prepared.scene_views[segment->view].space;
 }
 
-static int reserve(const struct band *band, uint32_t n)
-{
-	struct tracer *tr = band->frame->tr;
-	int err = frame_reserve(tr, pixels, n);
-
-	if (!err)
-		err = frame_reserve(tr, shaded, n);
-	if (!err)
-		err = frame_reserve(tr, next_path_rays, n);
-	if (!err)
-		err = frame_reserve(tr, next_paths, n);
-	return err ? err : frame_reserve(tr, next_counts, n);
-}
-
 static int trace(const struct band *band, const struct segment *segment, struct camera_rectangle r)
 {
 	const struct frame *frame = band->frame;
-	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
+	const struct pass *pass = band->pass;
+	struct device *dev = frame->tr->dev;
 	const uint32_t n = (uint32_t)(r.x1 - r.x0) * (uint32_t)(r.y1 - r.y0);
+	struct fragment_list list;
+	struct path_list paths;
 	int err;
 
-	if ((err = reserve(band, n)) ||
+	if ((err = band_reserve_list(frame, n, &list)) || (err = secondary_reserve_paths(frame, n, &paths)) ||
 	    (err = launch_hook_ray(
-		     tr->dev, n,
-		     LAUNCH(hook_ray, .views = b->views, .view_index = segment->view, .width = frame->width,
-	                    .height = frame->height, .rectangle = segment_in_buffers(band, r),
-	                    .first_pixel = frame_first_pixel(band),
-	                    .turn = band->pass->number ? band->pass->turn : SAMPLE_TURNS, .sample = band->pass->number,
-	                    .frame_number = (uint32_t)frame->scene->frame + 1, .parameters = b->parameters,
-	                    .row = hooks_row(frame), .n = n, .pixels = b->pixels, .shaded = b->shaded,
-	                    .next_rays = b->next_path_rays, .next_paths = b->next_paths, .counts = b->next_counts))) ||
+		     dev, n,
+		     LAUNCH(hook_ray, .views = frame->tr->placed.views, .view_index = segment->view,
+	                    .width = frame->width, .height = frame->height, .rectangle = segment_in_buffers(band, r),
+	                    .first_pixel = frame_first_pixel(band), .turn = pass->number ? pass->turn : SAMPLE_TURNS,
+	                    .sample = pass->number, .frame_number = (uint32_t)frame->scene->frame + 1,
+	                    .parameters = hooks_parameters(frame), .row = hooks_row(frame), .n = n,
+	                    .pixels = list.pixels, .shaded = list.shaded, .next_rays = paths.next_rays,
+	                    .next_paths = paths.next_paths, .counts = paths.counts))) ||
 	    (err = secondary_follow(band, secondary_space(frame, segment->view, 0),
-	                            secondary_space(frame, segment->view, 1), 1, n, 1)))
+	                            secondary_space(frame, segment->view, 1), &list, 1, 1)))
 		return err;
-	for (uint32_t i = 0; i < band->pass->n_samples && !err; i++)
-		err = launch_hook_store(tr->dev, n,
-		                        LAUNCH(hook_store, .shaded = b->shaded, .pixels = b->pixels,
+	for (uint32_t i = 0; i < pass->n_samples && !err; i++)
+		err = launch_hook_store(dev, n,
+		                        LAUNCH(hook_store, .shaded = list.shaded, .pixels = list.pixels,
 		                               .first_pixel = frame_first_pixel(band), .n = n,
-		                               .frame = *frame_sample(band->pass, i)));
+		                               .frame = *frame_sample(pass, i)));
 	return err;
 }
 

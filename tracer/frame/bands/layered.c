@@ -8,6 +8,7 @@
 #include "kernels/frame/plain/plain.h"
 #include "kernels/gl/pixel.h"
 #include "packs.h"
+#include "tracer/frame/bands/buffers.h"
 #include "tracer/frame/bands/plain.h"
 #include "tracer/frame/bands/segment.h"
 #include "tracer/frame/light/dome.h"
@@ -21,12 +22,21 @@ struct looks {
 	uint32_t layers;  /* layers of the block with the most */
 	uint32_t columns, asking;
 	union buffer_float *before, *after; /* pixels passed from round to round; exchanged at the end of each */
+	const struct compose_planes *planes;
 	const struct accel_space *space, *sky; /* space: for rays to lights; sky: for rays that hit nothing */
-	uint32_t next; /* segment to look at next: the same one if goes_on, from the positions in tracer.counts */
+	uint32_t next; /* segment to look at next: the same one if goes_on, from the positions in host_counts */
 	int goes_on;
 	struct layer_clear *clears; /* room for all clears of the frame */
 	uint32_t n_clears, cleared; /* n_clears: of this round; clears of segments before `cleared` are done */
 	uint32_t skipped;           /* clears of the first segment that are part of the initial pixels */
+};
+
+/* Room for a round's fragments and their rays. */
+struct places {
+	struct fragment_list alone, leaving; /* those shaded one by one; those that reflect or transmit light */
+	struct light_rays rays;
+	uint32_t n_slots;
+	struct dome_plain dome; /* none */
 };
 
 static const struct accel_space *space_of(const struct frame *frame, const struct segment *segment)
@@ -149,10 +159,11 @@ static int clear_look(const struct band *band, const struct looks *looks)
 {
 	struct tracer *tr = band->frame->tr;
 	const uint32_t first = plain_look_first(looks->columns, looks->n, band->n_pixels);
-	const size_t bytes = band->n_pixels * sizeof(*tr->counts);
+	const size_t bytes = band->n_pixels * sizeof(*tr->band->host_counts);
 
-	memset(tr->counts, 0, bytes);
-	return device_write(tr->dev, tr->buffers.counts.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
+	memset(tr->band->host_counts, 0, bytes);
+	return device_write(tr->dev, tr->band->counts.buffer, first * sizeof(*tr->band->host_counts),
+	                    tr->band->host_counts, bytes);
 }
 
 /* Make room for one look at each segment, and one more for continued columns. */
@@ -168,28 +179,28 @@ static int reserve_looks(const struct band *band, struct looks *looks)
 		looks->most += frame->prepared.segments[i].view != SCENE_NONE;
 	looks->most = looks->most < PLAIN_LOOKS ? looks->most : PLAIN_LOOKS;
 	n = (size_t)looks->most * band->n_pixels;
-	err = frame_reserve(tr, counts, n * CAMERA_COLUMN_MAX);
+	err = launch_reserve(tr->dev, tr->band->counts, n * CAMERA_COLUMN_MAX);
 	if (!err)
-		err = frame_reserve(tr, after, n);
-	return err ? err : frame_reserve(tr, sparse, n * CAMERA_COLUMN_MAX);
+		err = launch_reserve(tr->dev, tr->band->after, n);
+	return err ? err : launch_reserve(tr->dev, tr->band->sparse, n * CAMERA_COLUMN_MAX);
 }
 
-/* Add a look's counts, in tracer.counts, to the layers of blocks, in tracer.first. @return most layers of a pixel */
+/* Add a look's counts, in host_counts, to the layers of blocks, in host_first. @return most layers of a pixel */
 static uint32_t add_layers(const struct band *band, struct looks *looks)
 {
 	const struct frame *frame = band->frame;
-	const uint32_t columns = plain_columns(frame->width);
+	const uint32_t columns = plain_columns(frame->width), *counts = frame->tr->band->host_counts;
 	uint32_t most_of_all = 0;
 
 	for (uint32_t y0 = 0; y0 < band->n_rows; y0 += PLAIN_ROWS)
 		for (uint32_t x0 = 0; x0 < frame->width; x0 += PLAIN_WIDTH) {
-			uint32_t *layers = &frame->tr->first[y0 / PLAIN_ROWS * columns + x0 / PLAIN_WIDTH], most = 0;
+			uint32_t *layers = &frame->tr->band->host_first[y0 / PLAIN_ROWS * columns + x0 / PLAIN_WIDTH],
+				 most = 0;
 
 			for (uint32_t y = y0; y < y0 + PLAIN_ROWS && y < band->n_rows; y++)
 				for (uint32_t x = x0; x < x0 + PLAIN_WIDTH && x < frame->width; x++)
-					most = frame->tr->counts[y * frame->width + x] > most ?
-					               frame->tr->counts[y * frame->width + x] :
-					               most;
+					most = counts[y * frame->width + x] > most ? counts[y * frame->width + x] :
+					                                             most;
 			*layers += most;
 			looks->layers = *layers > looks->layers ? *layers : looks->layers;
 			most_of_all = most > most_of_all ? most : most_of_all;
@@ -197,25 +208,24 @@ static uint32_t add_layers(const struct band *band, struct looks *looks)
 	return most_of_all;
 }
 
-/* Find where the columns filled by the last look continue. tracer.counts: its counts, replaced by these positions. */
+/* Find where the columns filled by the last look continue. host_counts: its counts, replaced by these positions. */
 static int go_on(const struct band *band, const struct looks *looks)
 {
 	struct tracer *tr = band->frame->tr;
 	const uint32_t from = plain_look_first(looks->columns, looks->n - 1, band->n_pixels);
 	const struct fragment *sparse;
 	const void *mapped;
-	int err = device_map(tr->dev, tr->buffers.sparse.buffer,
+	int err = device_map(tr->dev, tr->band->sparse.buffer,
 	                     ((size_t)from + band->n_pixels) * CAMERA_COLUMN_MAX * sizeof(*sparse), 1, &mapped);
 
 	if (err)
 		return err;
 	sparse = mapped;
 	for (uint32_t i = 0; i < band->n_pixels; i++)
-		tr->counts[i] = tr->counts[i] == CAMERA_COLUMN_MAX ?
-		                        sparse[((size_t)from + i) * CAMERA_COLUMN_MAX + CAMERA_COLUMN_MAX - 1].order +
-		                                1 :
+		tr->band->host_counts[i] = tr->band->host_counts[i] == CAMERA_COLUMN_MAX ?
+		                        sparse[((size_t)from + i + 1) * CAMERA_COLUMN_MAX - 1].order + 1 :
 		                        SCENE_NONE;
-	return device_unmap(tr->dev, tr->buffers.sparse.buffer, mapped);
+	return device_unmap(tr->dev, tr->band->sparse.buffer, mapped);
 }
 
 /* Look once at a rectangle of a segment. */
@@ -226,7 +236,7 @@ static int look_at(const struct band *band, const struct segment *segment, struc
 	struct tracer *tr = frame->tr;
 	const struct accel_space *space = space_of(frame, segment);
 	const uint32_t is_column = segment->mode == CAMERA_COLUMN;
-	const size_t bytes = band->n_pixels * sizeof(*tr->counts);
+	const size_t bytes = band->n_pixels * sizeof(*tr->band->host_counts);
 	uint32_t first;
 	int err = 0;
 
@@ -236,15 +246,17 @@ static int look_at(const struct band *band, const struct segment *segment, struc
 	looks->sky = space ? secondary_space(frame, segment->view, 1) : looks->sky;
 	first = plain_look_first(looks->columns, looks->n, band->n_pixels);
 	if (!looks->goes_on)
-		memset(tr->counts, 0, bytes); /* columns start at the first fragment */
+		memset(tr->band->host_counts, 0, bytes); /* columns start at the first fragment */
 	if (is_column)
-		err = device_write(tr->dev, tr->buffers.after.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
+		err = device_write(tr->dev, tr->band->after.buffer, first * sizeof(*tr->band->host_counts),
+		                   tr->band->host_counts, bytes);
 	if (!err)
 		err = clear_look(band, looks);
 	if (!err)
 		err = segment_trace_camera(band, segment, r, first);
 	if (!err)
-		err = device_read(tr->dev, tr->buffers.counts.buffer, first * sizeof(*tr->counts), tr->counts, bytes);
+		err = device_read(tr->dev, tr->band->counts.buffer, first * sizeof(*tr->band->host_counts),
+		                  tr->band->host_counts, bytes);
 	looks->n++;
 	looks->goes_on = !err && add_layers(band, looks) == CAMERA_COLUMN_MAX && is_column;
 	return looks->goes_on ? go_on(band, looks) : err;
@@ -271,7 +283,7 @@ static void clear_segment(const struct band *band, const struct segment *segment
 	looks->cleared++;
 }
 
-/* Run the looks of one round. tracer.first receives the layers of blocks. */
+/* Run the looks of one round. host_first receives the layers of blocks. */
 static int look_around(const struct band *band, struct looks *looks)
 {
 	const struct frame *frame = band->frame;
@@ -280,7 +292,8 @@ static int look_around(const struct band *band, struct looks *looks)
 
 	looks->n = looks->layers = looks->columns = looks->asking = looks->n_clears = 0;
 	looks->space = looks->sky = NULL;
-	memset(frame->tr->first, 0, plain_blocks(frame->width, band->n_rows) * sizeof(*frame->tr->first));
+	memset(frame->tr->band->host_first, 0,
+	       plain_blocks(frame->width, band->n_rows) * sizeof(*frame->tr->band->host_first));
 	while (!err && looks->next < p->n_segments) {
 		const struct segment *segment = &p->segments[looks->next];
 		const uint32_t slots = segment->mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1;
@@ -311,9 +324,9 @@ static uint32_t place_blocks(const struct band *band)
 	uint32_t next = 0;
 
 	for (uint32_t i = 0; i < blocks; i++) {
-		const uint32_t layers = frame->tr->first[i];
+		const uint32_t layers = frame->tr->band->host_first[i];
 
-		frame->tr->first[i] = layers ? next : SCENE_NONE;
+		frame->tr->band->host_first[i] = layers ? next : SCENE_NONE;
 		next += layers;
 	}
 	return next * PLAIN_WIDTH * PLAIN_ROWS;
@@ -321,112 +334,113 @@ static uint32_t place_blocks(const struct band *band)
 
 /* --- Drawing ----------------------------------------------------------------------------------------------------- */
 
-/* Make room for the kernels' results for n fragments and their rays. */
-static int reserve_places(const struct frame *frame, uint32_t n, uint32_t n_slots)
+/* Make room for n fragments that are shaded one by one, and for the rays of all. */
+static int reserve_places(const struct frame *frame, uint32_t n, uint32_t n_slots, struct places *out)
 {
-	struct tracer *tr = frame->tr;
+	struct device *dev = frame->tr->dev;
+	struct band_buffers *b = frame->tr->band;
 	int err;
 
-	if ((err = frame_reserve(tr, alone_fragments, n)) || (err = frame_reserve(tr, alone_pixels, n)) ||
-	    (err = frame_reserve(tr, alone_shaded, n)) || (err = frame_reserve(tr, leaving, n / PLAIN_WIDTH)) ||
-	    (err = frame_reserve(tr, leaving_first, n / PLAIN_WIDTH)) || (err = frame_reserve(tr, fragments, 1)) ||
-	    (err = frame_reserve(tr, pixels, 1)) || (err = frame_reserve(tr, shaded, 1)) ||
-	    (err = frame_reserve(tr, dome_places, 1)))
+	if ((err = launch_reserve(dev, b->alone_fragments, n)) || (err = launch_reserve(dev, b->alone_pixels, n)) ||
+	    (err = launch_reserve(dev, b->alone_shaded, n)) ||
+	    (err = launch_reserve(dev, b->leaving, n / PLAIN_WIDTH)) ||
+	    (err = launch_reserve(dev, b->leaving_first, n / PLAIN_WIDTH)) ||
+	    (err = band_reserve_list(frame, 1, &out->leaving)) || (err = dome_prepare_none(frame, &out->dome)))
 		return err;
-	return secondary_reserve_rays(frame, n_slots ? (size_t)n * n_slots : 1, &tr->buffers.layer_visibility);
+	out->alone = (struct fragment_list){ b->alone_fragments, b->alone_pixels, b->alone_shaded, n };
+	out->n_slots = n_slots;
+	return secondary_reserve_rays(frame, n_slots ? (size_t)n * n_slots : 1, &b->layer_visibility, &out->rays);
 }
 
 /* round: PLAIN_BEGINS and similar flags */
-static struct plain_launch launch_of(const struct band *band, const struct looks *looks, uint32_t round, uint32_t n,
-                                     uint32_t n_slots, const struct compose_request *request)
+static struct plain_launch launch_of(const struct band *band, const struct looks *looks, const struct places *places,
+                                     uint32_t round)
 {
-	static const struct camera_rectangle nowhere;
-	const struct frame_buffers *b = &band->frame->tr->buffers;
-	struct plain_launch a = plain_launch_of(band, nowhere, n, n_slots, b->layer_visibility, request);
+	const struct band_buffers *b = band->frame->tr->band;
+	struct plain_launch a = plain_launch_of(band, &places->alone, &places->rays, places->n_slots, &places->dome,
+	                                        looks->planes);
 
-	a.fragments = b->alone_fragments;
-	a.pixels = b->alone_pixels;
-	a.shaded = b->alone_shaded;
 	a.layers = *LAUNCH(layers, .counts = b->counts, .n_looks = looks->n, .columns = looks->columns,
 	                   .asking = looks->asking, .round = round, .clears = b->layer_clears,
 	                   .n_clears = looks->n_clears, .before = *looks->before, .after = *looks->after,
 	                   .unknown = b->unknown, .mirrors = looks->space && plain_has_mirrors(band->frame),
-	                   .leaving = b->leaving, .list_first = b->leaving_first, .list = b->fragments,
-	                   .list_pixels = b->pixels, .list_shaded = b->shaded);
+	                   .leaving = b->leaving, .list_first = b->leaving_first, .list = places->leaving.fragments,
+	                   .list_pixels = places->leaving.pixels, .list_shaded = places->leaving.shaded);
 	return a;
 }
 
-/* Give the fragments that reflect or transmit light their places in the list, out of n fragments. n_list: receives
- * their number */
-static int place_leaving(const struct frame *frame, uint32_t n, uint32_t *n_list)
+/* Give the fragments that reflect or transmit light, out of n, their places in the list. */
+static int place_leaving(const struct frame *frame, uint32_t n, struct fragment_list *out)
 {
 	struct tracer *tr = frame->tr;
 	const uint32_t rows = n / PLAIN_WIDTH;
-	uint32_t *first = malloc(rows * sizeof(*first));
+	uint32_t *first = malloc(rows * sizeof(*first)), n_list = 0;
 	const void *mapped;
 	int err;
 
-	*n_list = 0;
 	if (!first)
 		return err_report(ERR_SYSTEM, NULL, "out of memory for %u rows of pixels", rows);
-	err = device_map(tr->dev, tr->buffers.leaving.buffer, rows * sizeof(*first), 1, &mapped);
+	err = device_map(tr->dev, tr->band->leaving.buffer, rows * sizeof(*first), 1, &mapped);
 	for (uint32_t i = 0; i < rows && !err; i++) {
-		first[i] = *n_list;
+		first[i] = n_list;
 		for (uint32_t left = ((const uint32_t *)mapped)[i]; left; left &= left - 1)
-			++*n_list;
+			n_list++;
 	}
 	if (!err)
-		err = device_unmap(tr->dev, tr->buffers.leaving.buffer, mapped);
+		err = device_unmap(tr->dev, tr->band->leaving.buffer, mapped);
 	if (!err)
-		err = frame_upload(tr, leaving_first, first, rows);
+		err = launch_upload(tr->dev, tr->band->leaving_first, first, rows);
 	free(first);
-	if (!err && *n_list)
-		err = frame_reserve(tr, fragments, *n_list);
-	if (!err && *n_list)
-		err = frame_reserve(tr, pixels, *n_list);
-	return err || !*n_list ? err : frame_reserve(tr, shaded, *n_list);
+	if (!err && n_list)
+		err = band_reserve_list(frame, n_list, out);
+	out->n = n_list;
+	return err;
 }
 
 /* Follow paths from the list, then make all planes if there are any. */
-static int follow(const struct band *band, const struct looks *looks, struct plain_launch a, uint32_t n_list)
+static int follow(const struct band *band, const struct looks *looks, struct places *places, uint32_t round)
 {
-	int err = secondary_paths(band, looks->space, looks->sky, n_list);
+	const struct frame *frame = band->frame;
+	struct plain_launch a;
+	int err = secondary_paths(band, looks->space, looks->sky, &places->leaving);
 
+	if (!err) /* paths may have replaced the buffer of rays */
+		err = secondary_reserve_rays(frame, 1, &frame->tr->band->layer_visibility, &places->rays);
 	if (err)
 		return err;
-	a = launch_of(band, looks, a.layers.round, a.n, a.n_slots, &a.request);
-	return launch_layered_mirror(band->frame->tr->dev, plain_blocks(band->frame->width, band->n_rows), &a);
+	a = launch_of(band, looks, places, round);
+	return launch_layered_mirror(frame->tr->dev, plain_blocks(frame->width, band->n_rows), &a);
 }
 
-/* Draw all planes without shadows and mirrors, trace rays to lights, then redraw the planes that these change. */
-static int draw(const struct band *band, const struct looks *looks, uint32_t round, uint32_t n,
-                const struct compose_request *request)
+/* Draw all planes without shadows and mirrors, trace rays to lights, then redraw the planes that these change. n:
+ * number of fragments */
+static int draw(const struct band *band, const struct looks *looks, uint32_t round, uint32_t n)
 {
 	const struct frame *frame = band->frame;
 	const uint32_t blocks = plain_blocks(frame->width, band->n_rows),
 		       n_slots = looks->space && n ? frame->prepared.n_light_slots : 0;
-	uint32_t n_list = 0;
+	struct places places = { .n_slots = 0 };
 	struct plain_launch a;
-	int err = reserve_places(frame, n, n_slots);
+	int err = reserve_places(frame, n, n_slots, &places);
 
 	if (!err)
-		err = frame_upload(frame->tr, layer_clears, looks->clears, looks->n_clears + 1);
+		err = launch_upload(frame->tr->dev, frame->tr->band->layer_clears, looks->clears, looks->n_clears + 1);
 	if (err)
 		return err;
-	a = launch_of(band, looks, round, n, n_slots, request);
+	a = launch_of(band, looks, &places, round);
+	places.leaving.n = 0;
 	err = launch_layered(frame->tr->dev, blocks, &a);
 	if (!err && n_slots)
 		err = plain_trace_rays(frame, looks->space, &a);
 	if (!err && n && a.layers.mirrors)
-		err = place_leaving(frame, n, &n_list);
-	if (err || !(n_slots || n_list))
+		err = place_leaving(frame, n, &places.leaving);
+	if (err || !(n_slots || places.leaving.n))
 		return err;
-	a = launch_of(band, looks, round, n, n_slots, request);
+	a = launch_of(band, looks, &places, round);
 	if (round & PLAIN_ENDS) /* other rounds pass on whole pixels */
 		a.request = plain_shadow_request(a.request);
 	err = launch_layered_shadow(frame->tr->dev, blocks, &a);
-	a.request = *request;
-	return err || !n_list ? err : follow(band, looks, a, n_list);
+	return err || !places.leaving.n ? err : follow(band, looks, &places, round);
 }
 
 /* Make room for the state passed from one round to the next, if there are several. */
@@ -439,27 +453,6 @@ static int reserve_kept(const struct band *band, const struct looks *looks, int 
 	return err ? err : launch_reserve(frame->tr->dev, *looks->after, n);
 }
 
-/* Use the picture that the frame starts from as the state of an earlier round. */
-static int keep_start(const struct band *band, const struct looks *looks)
-{
-	const struct frame *frame = band->frame;
-	const struct scene_picture *start = frame->scene->start;
-	const struct frame_buffers *b = &frame->tr->buffers;
-	const size_t first = frame_first_pixel(band);
-	int err = frame_reserve(frame->tr, colors, band->n_pixels);
-
-	if (!err)
-		err = device_write(frame->tr->dev, b->colors.buffer, 0, start->rgba + 4 * first,
-		                   band->n_pixels * sizeof(uint32_t));
-	if (!err)
-		err = frame_upload(frame->tr, depths, start->depth + first, band->n_pixels);
-	return err ? err :
-	             launch_layered_start(frame->tr->dev, (size_t)plain_columns(frame->width) * band->n_rows,
-	                                  LAUNCH(layered_start, .colors = b->colors, .depths = b->depths,
-	                                         .width = frame->width, .height = band->n_rows, .bits = frame->bits,
-	                                         .kept = *looks->before));
-}
-
 /* Flags of a round, except PLAIN_ENDS. */
 static uint32_t round_of(const struct frame *frame, int is_first)
 {
@@ -470,8 +463,7 @@ static uint32_t round_of(const struct frame *frame, int is_first)
 
 /* Run a round with as many looks as there is room for, and draw the fragments found. is_first: first round of the band.
  * is_last: receives 1 if it was the last */
-static int draw_round(const struct band *band, struct looks *looks, int is_first, int *is_last,
-                      const struct compose_request *request)
+static int draw_round(const struct band *band, struct looks *looks, int is_first, int *is_last)
 {
 	const struct frame *frame = band->frame;
 	union buffer_float *const before = looks->before;
@@ -483,13 +475,14 @@ static int draw_round(const struct band *band, struct looks *looks, int is_first
 	*is_last = looks->next == frame->prepared.n_segments;
 	round |= *is_last && band->pass->image ? PLAIN_ENDS : 0;
 	n = place_blocks(band);
-	err = frame_upload(frame->tr, blocks, frame->tr->first, plain_blocks(frame->width, band->n_rows));
+	err = launch_upload(frame->tr->dev, frame->tr->band->blocks, frame->tr->band->host_first,
+	                    plain_blocks(frame->width, band->n_rows));
 	if (!err)
 		err = reserve_kept(band, looks, is_first && *is_last && band->pass->image && !frame->scene->start);
 	if (!err && is_first && frame->scene->start)
-		err = keep_start(band, looks);
+		err = picture_keep_start(band, *looks->before);
 	if (!err)
-		err = draw(band, looks, round, n, request);
+		err = draw(band, looks, round, n);
 	looks->before = looks->after;
 	looks->after = before;
 	return err;
@@ -499,7 +492,7 @@ static int draw_round(const struct band *band, struct looks *looks, int is_first
 static int draw_band(struct band *band, struct looks *looks)
 {
 	const struct frame *frame = band->frame;
-	struct compose_request request;
+	struct compose_planes planes;
 	struct scene_clear clear;
 	int err, is_last = 0;
 
@@ -507,32 +500,31 @@ static int draw_band(struct band *band, struct looks *looks)
 	memset(band->background, 0, sizeof(band->background));
 	if (!frame->scene->start)
 		memcpy(band->background, clear.color, sizeof(band->background));
-	/* Same condition as in plain_band. */
-	err = band->row_first + band->n_rows < frame->height && frame->tr->buffers.cleared.buffer ?
-	              0 :
-	              segment_clear_one(frame);
+	looks->planes = &planes;
+	err = segment_clear_first(band);
 	if (!err)
-		err = frame_reserve_counts(band);
+		err = band_reserve_counts(band);
 	if (!err)
 		err = reserve_looks(band, looks);
 	if (!err)
-		err = compose_reserve(band, &request);
+		err = compose_reserve(band, &planes);
 	if (!err)
-		err = frame_reserve(frame->tr, unknown, plain_columns(frame->width) * band->n_rows);
+		err = launch_reserve(frame->tr->dev, frame->tr->band->unknown,
+		                     plain_columns(frame->width) * band->n_rows);
 	for (int is_first = 1; !err && !is_last; is_first = 0)
-		err = draw_round(band, looks, is_first, &is_last, &request);
+		err = draw_round(band, looks, is_first, &is_last);
 	if (err)
 		return err;
 	if (!band->pass->image)
-		return picture_take_band(band, *looks->before, clear.stencil);
-	err = compose_fetch(band, &request);
-	return err || !is_unknown(frame) ? err : picture_count_rows(band);
+		return picture_take_band(band, *looks->before, frame->tr->band->unknown, clear.stencil);
+	err = compose_fetch(band, &planes);
+	return err || !is_unknown(frame) ? err : picture_count_rows(band, frame->tr->band->unknown);
 }
 
 int layered_band(struct band *band)
 {
 	const struct frame *frame = band->frame;
-	struct frame_buffers *b = &frame->tr->buffers;
+	struct band_buffers *b = frame->tr->band;
 	struct looks looks = { .before = &b->kept_pixels, .after = &b->next_pixels,
 		               .clears = calloc(frame->scene->n_clears + (size_t)1, sizeof(*looks.clears)) };
 	int err = looks.clears ? draw_band(band, &looks) :

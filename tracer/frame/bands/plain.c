@@ -5,6 +5,7 @@
 #include "kernels/camera/camera.h"
 #include "kernels/frame/plain/plain.h"
 #include "packs.h"
+#include "tracer/frame/bands/buffers.h"
 #include "tracer/frame/bands/segment.h"
 #include "tracer/frame/light/dome.h"
 #include "tracer/frame/light/secondary.h"
@@ -79,7 +80,7 @@ static int has_fragment(const struct band *band, struct camera_rectangle r, uint
 
 	for (int32_t row = r.y0 > (int32_t)y ? r.y0 : (int32_t)y; row < y1 && !n; row++)
 		for (int32_t i = r.x0 > (int32_t)x ? r.x0 : (int32_t)x; i < x1; i++)
-			n |= band->frame->tr->counts[(uint32_t)row * band->frame->width + (uint32_t)i];
+			n |= band->frame->tr->band->host_counts[(uint32_t)row * band->frame->width + (uint32_t)i];
 	return n != 0;
 }
 
@@ -90,34 +91,18 @@ static int place_blocks(const struct band *band, struct camera_rectangle r, uint
 	const struct frame *frame = band->frame;
 	struct tracer *tr = frame->tr;
 	const uint32_t columns = plain_columns(frame->width), blocks = plain_blocks(frame->width, band->n_rows);
-	int err = frame_reserve_counts(band);
+	int err = band_reserve_counts(band);
 	uint32_t next = 0;
 
 	if (!err && r.x0 < r.x1)
-		err = device_read(tr->dev, tr->buffers.counts.buffer, 0, tr->counts,
-		                  band->n_pixels * sizeof(*tr->counts));
+		err = device_read(tr->dev, tr->band->counts.buffer, 0, tr->band->host_counts,
+		                  band->n_pixels * sizeof(*tr->band->host_counts));
 	for (uint32_t i = 0; i < blocks && !err; i++)
-		tr->first[i] = has_fragment(band, r, i % columns * PLAIN_WIDTH, i / columns * PLAIN_ROWS) ? next++ :
-		                                                                                            SCENE_NONE;
+		tr->band->host_first[i] = has_fragment(band, r, i % columns * PLAIN_WIDTH, i / columns * PLAIN_ROWS) ?
+		                                  next++ :
+		                                  SCENE_NONE;
 	*n = (next ? next : 1) * PLAIN_WIDTH * PLAIN_ROWS;
-	return err ? err : frame_upload(tr, blocks, tr->first, blocks);
-}
-
-/* Make room for the kernels' results for n fragments and their rays. */
-static int reserve(const struct frame *frame, uint32_t n, uint32_t n_slots)
-{
-	struct tracer *tr = frame->tr;
-	int err = frame_reserve(tr, fragments, n);
-
-	if (!err)
-		err = frame_reserve(tr, pixels, n);
-	if (!err)
-		err = frame_reserve(tr, shaded, n);
-	if (!err)
-		err = frame_reserve(tr, dome_places, 1);
-	if (!err)
-		err = frame_reserve(tr, layer_clears, 1);
-	return err ? err : secondary_reserve_rays(frame, n_slots ? (size_t)n * n_slots : 1, &tr->buffers.visibility);
+	return err ? err : launch_upload(tr->dev, tr->band->blocks, tr->band->host_first, blocks);
 }
 
 struct compose_request plain_shadow_request(struct compose_request r)
@@ -134,39 +119,44 @@ int plain_trace_rays(const struct frame *frame, const struct accel_space *space,
 	return secondary_ask(frame, space, &(const struct light_rays){ a->rays, a->visibility, a->n * a->n_slots, 1 });
 }
 
-struct plain_launch plain_launch_of(const struct band *band, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
-                                    union buffer_float visibility, const struct compose_request *request)
+int plain_reserve_unused(const struct frame *frame)
 {
-	const struct frame *frame = band->frame;
-	const struct frame_buffers *b = &frame->tr->buffers;
-	const struct scene_dome none = { .reach = 0 };
-	const struct layers_launch *one = LAUNCH(
-		layers, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .round = 0,
-		.clears = b->layer_clears, .n_clears = 0, .before = visibility, .after = visibility,
-		.unknown = b->counts, .mirrors = 0, .leaving = b->counts, .list_first = b->counts, .list = b->fragments,
-		.list_pixels = b->pixels, .list_shaded = b->shaded);
+	struct device *dev = frame->tr->dev;
+	struct band_buffers *b = frame->tr->band;
+	int err;
 
-	return *LAUNCH(plain, .tables = frame_tables(frame->tr), .views = b->views, .windows = b->windows,
-	               .sparse = b->sparse, .rectangle = segment_in_buffers(band, r), .width = frame->width,
-	               .height = frame->height, .first_pixel = frame_first_pixel(band), .bits = frame->bits,
-	               .cleared = b->cleared, .request = *request, .visibility = visibility, .n_slots = n_slots,
-	               .blocks = b->blocks, .n = n, .fragments = b->fragments, .pixels = b->pixels, .shaded = b->shaded,
-	               .rays = b->rays, .programs = b->programs, .dome = none, .directions = visibility, .samples = 0,
-	               .places = b->dome_places, .looks = b->rays, .factors = visibility, .layers = *one,
-	               .halves = b->halves, .floats = b->floats);
+	if ((err = launch_reserve(dev, b->layer_clears, 1)) || (err = launch_reserve(dev, b->kept_pixels, 1)) ||
+	    (err = launch_reserve(dev, b->next_pixels, 1)) || (err = launch_reserve(dev, b->unknown, 1)) ||
+	    (err = launch_reserve(dev, b->leaving, 1)) || (err = launch_reserve(dev, b->leaving_first, 1)) ||
+	    (err = launch_reserve(dev, b->alone_fragments, 1)) || (err = launch_reserve(dev, b->alone_pixels, 1)))
+		return err;
+	return launch_reserve(dev, b->alone_shaded, 1);
 }
 
-/* The same launch with dome light from `samples` directions. */
-static struct plain_launch in_dome(const struct frame *frame, struct plain_launch a, uint32_t samples)
+struct plain_launch plain_launch_of(const struct band *band, const struct fragment_list *list,
+                                    const struct light_rays *rays, uint32_t n_slots, const struct dome_plain *dome,
+                                    const struct compose_planes *to)
 {
-	const struct frame_buffers *b = &frame->tr->buffers;
+	static const struct camera_rectangle nowhere;
+	const struct frame *frame = band->frame;
+	const struct placed_buffers *p = &frame->tr->placed;
+	const struct band_buffers *b = frame->tr->band;
+	const struct scene_dome none = { .reach = 0 };
+	const struct layers_launch *one =
+		LAUNCH(layers, .counts = b->counts, .n_looks = 0, .columns = 0, .asking = 0, .round = 0,
+	               .clears = b->layer_clears, .n_clears = 0, .before = b->kept_pixels, .after = b->next_pixels,
+	               .unknown = b->unknown, .mirrors = 0, .leaving = b->leaving, .list_first = b->leaving_first,
+	               .list = b->alone_fragments, .list_pixels = b->alone_pixels, .list_shaded = b->alone_shaded);
 
-	a.dome = frame->scene->dome;
-	a.directions = b->dome_directions;
-	a.samples = samples;
-	a.looks = b->dome_rays;
-	a.factors = b->dome_factors;
-	return a;
+	return *LAUNCH(plain, .tables = frame_tables(frame->tr), .views = p->views, .windows = p->windows,
+	               .sparse = b->sparse, .rectangle = nowhere, .width = frame->width, .height = frame->height,
+	               .first_pixel = frame_first_pixel(band), .bits = frame->bits, .cleared = b->cleared,
+	               .request = to->request, .visibility = rays->visibility, .n_slots = n_slots, .blocks = b->blocks,
+	               .n = list->n, .fragments = list->fragments, .pixels = list->pixels, .shaded = list->shaded,
+	               .rays = rays->rays, .programs = p->programs, .dome = dome->samples ? frame->scene->dome : none,
+	               .directions = dome->directions, .samples = dome->samples, .places = dome->places,
+	               .looks = dome->looks, .factors = dome->factors, .layers = *one, .halves = to->halves,
+	               .floats = to->floats);
 }
 
 /* Compute colours by programs, for plain, before rays to lights are traced (0), or for plain_shadow. */
@@ -243,14 +233,14 @@ static int is_whole(const struct frame *frame)
 }
 
 /* Draw without secondary rays: the fragments found by the camera go directly into the planes. r: area of the view */
-static int draw_whole(const struct band *band, struct camera_rectangle r, const struct compose_request *request)
+static int draw_whole(const struct band *band, struct camera_rectangle r, const struct compose_planes *to)
 {
 	const struct frame *frame = band->frame;
-	const struct frame_buffers *b = &frame->tr->buffers;
 	const struct traverse_trees *t = &frame->tr->trees;
 	const struct camera_rectangle whole = { 0, (int32_t)band->row_first, (int32_t)frame->width,
-		                               (int32_t)(band->row_first + band->n_rows) };
-	int err = reserve(frame, band->n_pixels, 0);
+		                                (int32_t)(band->row_first + band->n_rows) };
+	struct fragment_list alone;
+	int err = band_reserve_list(frame, band->n_pixels, &alone);
 
 	if (err)
 		return err;
@@ -258,36 +248,54 @@ static int draw_whole(const struct band *band, struct camera_rectangle r, const 
 	                          LAUNCH(plain_whole, .pass = segment_camera_pass(band, frame->prepared.segments, r, 0),
 	                                 .instances = t->instances, .top = t->top2, .instance_list = t->instance_list,
 	                                 .nodes = t->nodes8, .triangles = t->faces8, .tables = frame_tables(frame->tr),
-	                                 .bits = frame->bits, .cleared = b->cleared, .request = *request,
-	                                 .alone = b->fragments, .pixels = b->pixels, .shaded = b->shaded,
-	                                 .halves = b->halves, .floats = b->floats));
+	                                 .bits = frame->bits, .cleared = frame->tr->band->cleared,
+	                                 .request = to->request, .alone = alone.fragments, .pixels = alone.pixels,
+	                                 .shaded = alone.shaded, .halves = to->halves, .floats = to->floats));
+}
+
+/* Make room for n places and their rays, and collect the arguments. */
+static int reserve_launch(const struct band *band, const struct accel_space *space, uint32_t n,
+                          const struct compose_planes *to, struct plain_launch *out)
+{
+	const struct frame *frame = band->frame;
+	const uint32_t n_slots = space ? frame->prepared.n_light_slots : 0;
+	struct fragment_list list;
+	struct dome_plain dome;
+	struct light_rays rays;
+	int err = band_reserve_list(frame, n, &list);
+
+	if (!err)
+		err = plain_reserve_unused(frame);
+	if (!err)
+		err = space && dome_is_there(frame) ? dome_prepare_plain(frame, n, &dome) :
+		                                      dome_prepare_none(frame, &dome);
+	if (!err) /* last: the dome's rays are among these */
+		err = secondary_reserve_rays(frame, n_slots ? (size_t)n * n_slots : 1, NULL, &rays);
+	if (!err)
+		*out = plain_launch_of(band, &list, &rays, n_slots, &dome, to);
+	return err;
 }
 
 /* Draw in steps: camera rays, then everything that depends on secondary rays and programs. */
 static int draw_in_steps(const struct band *band, const struct accel_space *space, struct camera_rectangle r,
-                         uint32_t n_slots, const struct compose_request *request)
+                         const struct compose_planes *to)
 {
 	const struct frame *frame = band->frame;
-	const struct segment *segment = frame->prepared.segments;
 	const uint32_t blocks = plain_blocks(frame->width, band->n_rows);
-	uint32_t n, samples = 0; /* n: places of pixels; samples: dome rays of each */
+	uint32_t n = blocks * PLAIN_WIDTH * PLAIN_ROWS; /* places of pixels */
 	struct plain_launch a;
-	int err = r.x0 < r.x1 ? segment_trace_camera(band, segment, r, 0) : 0;
+	int err = r.x0 < r.x1 ? segment_trace_camera(band, frame->prepared.segments, r, 0) : 0;
 
 	/* Kernels with one pixel per work item have places for all pixels, so there is no wait for the camera pass. */
-	n = blocks * PLAIN_WIDTH * PLAIN_ROWS;
 	if (!err)
 		err = frame_in_packets(frame) ? place_blocks(band, segment_in_buffers(band, r), &n) :
-		                                frame_reserve(frame->tr, blocks, 1);
+		                                launch_reserve(frame->tr->dev, frame->tr->band->blocks, 1);
 	if (!err)
-		err = reserve(frame, n, n_slots);
-	if (!err && space && dome_is_there(frame))
-		err = dome_prepare_plain(frame, n, &samples);
+		err = reserve_launch(band, space, n, to, &a);
 	if (err)
 		return err;
-	a = plain_launch_of(band, r, n, n_slots, frame->tr->buffers.visibility, request);
-	return samples ? draw_in_dome(band, space, in_dome(frame, a, samples), blocks) :
-	                 draw_lit(frame, space, a, blocks);
+	a.rectangle = segment_in_buffers(band, r);
+	return a.samples ? draw_in_dome(band, space, a, blocks) : draw_lit(frame, space, a, blocks);
 }
 
 int plain_band(struct band *band)
@@ -297,19 +305,14 @@ int plain_band(struct band *band)
 	const struct accel_space *space = frame->options->mode == TRACER_GL ? NULL :
 	                                                                      secondary_space(frame, segment->view, 0);
 	const struct camera_rectangle r = segment_rectangle(band, frame->prepared.views[segment->view].scissor);
-	const uint32_t n_slots = space ? frame->prepared.n_light_slots : 0;
-	struct compose_request request;
-	/* The top band is drawn first. A device that ran out of memory may have released the buffer since. */
-	int err = band->row_first + band->n_rows < frame->height && frame->tr->buffers.cleared.buffer ?
-	                  0 :
-	                  segment_clear_one(frame);
+	struct compose_planes planes;
+	int err = segment_clear_first(band);
 
 	if (!err)
 		err = segment_reserve(band, 1);
 	if (!err)
-		err = compose_reserve(band, &request);
+		err = compose_reserve(band, &planes);
 	if (!err)
-		err = is_whole(frame) ? draw_whole(band, r, &request) :
-		                        draw_in_steps(band, space, r, n_slots, &request);
-	return err ? err : compose_fetch(band, &request);
+		err = is_whole(frame) ? draw_whole(band, r, &planes) : draw_in_steps(band, space, r, &planes);
+	return err ? err : compose_fetch(band, &planes);
 }

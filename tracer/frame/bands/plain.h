@@ -5,6 +5,8 @@
 #pragma once
 
 #include "tracer/frame/common/frame.h"
+#include "tracer/frame/light/dome.h"
+#include "tracer/frame/picture/compose.h"
 
 /** 1 if this pass of the frame is plain. The frame must be placed. */
 int plain_suits(const struct pass *pass);
@@ -20,9 +22,14 @@ int plain_is_simple(const struct pass *pass);
 /** 1 if there are surfaces that reflect or transmit light. */
 int plain_has_mirrors(const struct frame *frame);
 
-/** Arguments of both ways, without dome light. r: rectangle of the band; visibility: receives that of lights */
-struct plain_launch plain_launch_of(const struct band *band, struct camera_rectangle r, uint32_t n, uint32_t n_slots,
-                                    union buffer_float visibility, const struct compose_request *request);
+/** Make room for one element in each buffer that only layered.c uses. */
+int plain_reserve_unused(const struct frame *frame);
+
+/** Arguments of both ways: for a list with room for the fragments, rays to n_slots lights each, and the dome's rays.
+ * The area of the view is empty. */
+struct plain_launch plain_launch_of(const struct band *band, const struct fragment_list *list,
+                                    const struct light_rays *rays, uint32_t n_slots, const struct dome_plain *dome,
+                                    const struct compose_planes *to);
 
 /** Trace the rays to lights that the kernels of such a launch made. */
 int plain_trace_rays(const struct frame *frame, const struct accel_space *space, const struct plain_launch *a);

@@ -5,6 +5,7 @@
 #include "kernels/camera/camera.h"
 #include "kernels/frame/light/sample.h"
 #include "kernels/gl/pixel.h"
+#include "tracer/frame/bands/buffers.h"
 #include "tracer/frame/hook/hooks.h"
 #include "tracer/frame/light/dome.h"
 #include "tracer/frame/light/scan.h"
@@ -114,13 +115,23 @@ int segment_clear_one(const struct frame *frame)
 	static const struct frame_pixel nothing;
 	const struct camera_rectangle one = { 0, 0, 1, 1 };
 	struct scene_clear clear;
-	int err = frame_upload(frame->tr, cleared, &nothing, 1);
+	int err = launch_upload(frame->tr->dev, frame->tr->band->cleared, &nothing, 1);
 
 	segment_whole_clear(frame, &clear);
 	return err ? err :
 	             launch_clear(frame->tr->dev, 1,
 	                          LAUNCH(clear, .clear = clear, .rectangle = one, .width = 1, .bits = frame->bits,
-	                                 .n = 1, .frame = frame->tr->buffers.cleared));
+	                                 .n = 1, .frame = frame->tr->band->cleared));
+}
+
+int segment_clear_first(const struct band *band)
+{
+	const struct frame *frame = band->frame;
+
+	/* The top band is drawn first. A device that ran out of memory may have released the buffer since. */
+	if (band->row_first + band->n_rows < frame->height && frame->tr->band->cleared.buffer)
+		return 0;
+	return segment_clear_one(frame);
 }
 
 /* 1 if all pixels begin with the same value, are drawn to only by resolve_packet (not by a hook's rays), and go into
@@ -144,8 +155,8 @@ int segment_say_drawn(const struct band *band, int drawn)
 
 	if (!frame_in_packets(frame))
 		return 0;
-	memset(frame->tr->counts, drawn ? 0xff : 0, rows * sizeof(*frame->tr->counts));
-	return frame_upload(frame->tr, drawn, frame->tr->counts, rows);
+	memset(frame->tr->band->host_counts, drawn ? 0xff : 0, rows * sizeof(*frame->tr->band->host_counts));
+	return launch_upload(frame->tr->dev, frame->tr->band->drawn, frame->tr->band->host_counts, rows);
 }
 
 int segment_clear_all(struct band *band, uint32_t *n_done)
@@ -166,11 +177,12 @@ struct camera_pass_launch segment_camera_pass(const struct band *band, const str
                                               struct camera_rectangle r, uint32_t first)
 {
 	const struct frame *frame = band->frame;
-	const struct frame_buffers *b = &frame->tr->buffers;
+	struct band_buffers *b = frame->tr->band;
 
-	return *LAUNCH(camera_pass, .view_index = segment->view, .views = b->views, .width = frame->width,
-	               .height = frame->height, .rectangle = r, .first_pixel = frame_first_pixel(band) - first,
-	               .mode = segment->mode, .window = b->windows, .clip = b->clips, .after = b->after,
+	return *LAUNCH(camera_pass, .view_index = segment->view, .views = frame->tr->placed.views,
+	               .width = frame->width, .height = frame->height, .rectangle = r,
+	               .first_pixel = frame_first_pixel(band) - first, .mode = segment->mode,
+	               .window = frame->tr->placed.windows, .clip = frame->tr->placed.clips, .after = b->after,
 	               .fragments = b->sparse, .counts = b->counts);
 }
 
@@ -197,7 +209,7 @@ static int32_t block_end(int32_t at, int32_t limit)
 }
 
 /*
- * Compute the position of each pixel's fragments in the dense list, block by block, into buffers.first.
+ * Compute the position of each pixel's fragments in the dense list, block by block, into the buffer `first`.
  * @param n_list  receives the number of fragments
  * @param more    receives 1 if all slots of a pixel were filled: its column may continue
  */
@@ -206,7 +218,8 @@ static int place_fragments(const struct band *band, struct camera_rectangle r, u
 {
 	struct tracer *tr = band->frame->tr;
 	uint32_t next = 0;
-	int err = device_read(tr->dev, tr->buffers.counts.buffer, 0, tr->counts, band->n_pixels * sizeof(*tr->counts));
+	int err = device_read(tr->dev, tr->band->counts.buffer, 0, tr->band->host_counts,
+	                      band->n_pixels * sizeof(*tr->band->host_counts));
 
 	*more = 0;
 	for (int32_t y0 = r.y0; y0 < r.y1 && !err; y0 = block_end(y0, r.y1))
@@ -217,15 +230,15 @@ static int place_fragments(const struct band *band, struct camera_rectangle r, u
 						 pixel = number - frame_first_pixel(band);
 
 					if (band->pass->number && !sample_takes_part(number, band->pass->turn))
-						tr->counts[pixel] = 0;
-					tr->first[pixel] = next;
-					next += tr->counts[pixel];
-					*more |= slots > 1 && tr->counts[pixel] == slots;
+						tr->band->host_counts[pixel] = 0;
+					tr->band->host_first[pixel] = next;
+					next += tr->band->host_counts[pixel];
+					*more |= slots > 1 && tr->band->host_counts[pixel] == slots;
 				}
 	*n_list = next;
 	if (!err && band->pass->number)
-		err = frame_upload(tr, counts, tr->counts, band->n_pixels);
-	return err ? err : frame_upload(tr, first, tr->first, band->n_pixels);
+		err = launch_upload(tr->dev, tr->band->counts, tr->band->host_counts, band->n_pixels);
+	return err ? err : launch_upload(tr->dev, tr->band->first, tr->band->host_first, band->n_pixels);
 }
 
 /*
@@ -234,7 +247,7 @@ static int place_fragments(const struct band *band, struct camera_rectangle r, u
  */
 static int place_on_device(const struct band *band, uint32_t slots, uint32_t *n_list, int *more)
 {
-	struct frame_buffers *b = &band->frame->tr->buffers;
+	struct band_buffers *b = band->frame->tr->band;
 	const struct scan_list list = { b->counts, band->n_pixels, slots > 1 ? slots : SCENE_NONE, &b->first,
 		                        &b->scan };
 
@@ -248,53 +261,53 @@ static int is_band(const struct band *band, struct camera_rectangle r)
 	return r.x0 == 0 && r.y0 == 0 && r.x1 == (int32_t)band->frame->width && r.y1 == (int32_t)band->n_rows;
 }
 
-static int run_gather(const struct band *band, struct camera_rectangle r, uint32_t slots, uint32_t n_list)
+/* Make the list of n_list fragments. */
+static int run_gather(const struct band *band, struct camera_rectangle r, uint32_t slots, uint32_t n_list,
+                      struct fragment_list *out)
 {
-	struct tracer *tr = band->frame->tr;
-	uint32_t n = rectangle_area(r);
-	const struct frame_buffers *b = &tr->buffers;
-	int err = frame_reserve(tr, fragments, n_list);
+	const struct frame *frame = band->frame;
+	const struct band_buffers *b = frame->tr->band;
+	const uint32_t n = rectangle_area(r);
+	int err = band_reserve_list(frame, n_list, out);
 
-	if (!err)
-		err = frame_reserve(tr, pixels, n_list);
-	if (!err)
-		err = frame_reserve(tr, shaded, n_list);
 	if (err)
 		return err;
-	return launch_gather(tr->dev, n,
+	return launch_gather(frame->tr->dev, n,
 	                     LAUNCH(gather, .sparse = b->sparse, .counts = b->counts, .slots = slots, .first = b->first,
-	                            .list = b->fragments, .pixels = b->pixels, .after = b->after,
-	                            .rectangle = segment_in_buffers(band, r), .width = band->frame->width,
+	                            .list = out->fragments, .pixels = out->pixels, .after = b->after,
+	                            .rectangle = segment_in_buffers(band, r), .width = frame->width,
 	                            .first_pixel = frame_first_pixel(band), .n = n));
 }
 
-static int run_shade(const struct band *band, uint32_t bits, uint32_t slots, uint32_t n)
+/* visibility: of `slots` lights */
+static int run_shade(const struct band *band, uint32_t bits, const struct fragment_list *list, uint32_t slots,
+                     union buffer_float visibility)
 {
 	const struct frame *frame = band->frame;
-	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
-	const uint32_t transport = secondary_transport(frame->options);
+	const struct placed_buffers *p = &frame->tr->placed;
+	struct device *dev = frame->tr->dev;
+	const uint32_t n = list->n, transport = secondary_transport(frame->options);
 	const uint32_t albedo = transport >= TRANSPORT_DIFFUSE ||
 	                        (band->pass->image && compose_asks(frame->options, "albedo"));
 	const struct shade_launch *a = LAUNCH(
-		shade, .tables = frame_tables(tr), .views = b->views, .windows = b->windows, .fragments = b->fragments,
-		.pixels = b->pixels, .width = frame->width, .height = frame->height, .bits = bits,
-		.visibility = b->visibility, .n_slots = slots, .transport = transport, .albedo = albedo, .n = n,
-		.programs = b->programs, .output = frame->scene->output, .shaded = b->shaded);
+		shade, .tables = frame_tables(frame->tr), .views = p->views, .windows = p->windows,
+		.fragments = list->fragments, .pixels = list->pixels, .width = frame->width, .height = frame->height,
+		.bits = bits, .visibility = visibility, .n_slots = slots, .transport = transport, .albedo = albedo,
+		.n = n, .programs = p->programs, .output = frame->scene->output, .shaded = list->shaded);
 	const int in_packets = frame_in_packets(frame);
 	const uint32_t packets = (n + SHADE_PACKET - 1) / SHADE_PACKET;
-	int err = in_packets ? launch_shade_packet(tr->dev, packets, a) : launch_shade(tr->dev, n, a);
+	int err = in_packets ? launch_shade_packet(dev, packets, a) : launch_shade(dev, n, a);
 
 	if (err || !(frame->prepared.has_fragment_programs || (slots && frame->prepared.has_vertex_programs)))
 		return err;
-	return in_packets ? launch_program_packet(tr->dev, packets, a) : launch_program(tr->dev, n, a);
+	return in_packets ? launch_program_packet(dev, packets, a) : launch_program(dev, n, a);
 }
 
 static int run_resolve(const struct band *band, const struct target *to, struct camera_rectangle r)
 {
 	const struct frame *frame = band->frame;
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
+	const struct band_buffers *b = tr->band;
 	const int packets = frame_in_packets(frame);
 	const uint32_t n = packets ? frame_columns(frame->width) * (uint32_t)(r.y1 - r.y0) : rectangle_area(r);
 	const struct resolve_launch *a = LAUNCH(
@@ -305,40 +318,57 @@ static int run_resolve(const struct band *band, const struct target *to, struct 
 	return packets ? launch_resolve_packet(tr->dev, n, a) : launch_resolve(tr->dev, n, a);
 }
 
-/* Shade the fragments of the list: GL's colours, then the results of rays from them. bits: of their target */
-static int shade_list(const struct band *band, uint32_t bits, uint32_t view, struct camera_rectangle r, uint32_t n)
+/* Trace the rays of shaded fragments, in the modes that add light to GL's. visibility: of no lights */
+static int trace_list(const struct band *band, uint32_t bits, uint32_t view, const struct fragment_list *list,
+                      union buffer_float visibility)
 {
 	const struct frame *frame = band->frame;
 	const struct accel_space *space = secondary_space(frame, view, 0);
-	enum tracer_mode mode = frame->options->mode;
-	int err = run_shade(band, bits, 0, n);
+	const uint32_t transport = secondary_transport(frame->options);
+	const int is_hooked = hooks_has(frame, HOOK_ANY_HIT | HOOK_CLOSEST_HIT);
+	int err = 0;
 
+	if (frame->prepared.n_light_slots)
+		err = secondary_shadows(band->pass, space, list, &visibility);
+	if (!err && frame->prepared.n_light_slots)
+		err = run_shade(band, bits, list, frame->prepared.n_light_slots, visibility);
+	if (!err && is_hooked)
+		err = hooks_shade(frame, space, transport, list, visibility);
+	if (!err && frame->options->depth &&
+	    (frame->prepared.has_mirrors || transport >= TRANSPORT_DIFFUSE || is_hooked))
+		err = secondary_paths(band, space, secondary_space(frame, view, 1), list);
+	return err;
+}
+
+/* Shade the fragments of the list: GL's colours, then the results of rays from them. bits: of their target */
+static int shade_list(const struct band *band, uint32_t bits, uint32_t view, struct camera_rectangle r,
+                      const struct fragment_list *list)
+{
+	const struct frame *frame = band->frame;
+	const struct accel_space *space = secondary_space(frame, view, 0);
+	const struct dome_area area = { segment_in_buffers(band, r), frame->tr->band->counts, frame->tr->band->first };
+	enum tracer_mode mode = frame->options->mode;
+	struct light_rays none; /* no lights yet */
+	int err = secondary_reserve_rays(frame, 1, NULL, &none);
+
+	if (!err)
+		err = run_shade(band, bits, list, 0, none.visibility);
 	if (err || !space || mode == TRACER_GL || mode == TRACER_NORMALS)
 		return err;
 	if (mode == TRACER_AO || mode == TRACER_AO_PHONG)
-		return secondary_openness(band->pass, space, n);
-	if (frame->prepared.n_light_slots) {
-		err = secondary_shadows(band->pass, space, n);
-		if (!err)
-			err = run_shade(band, bits, frame->prepared.n_light_slots, n);
-	}
-	if (!err && hooks_has(frame, HOOK_ANY_HIT | HOOK_CLOSEST_HIT))
-		err = hooks_shade(frame, space, secondary_transport(frame->options), n);
-	if (!err && frame->options->depth &&
-	    (frame->prepared.has_mirrors || secondary_transport(frame->options) >= TRANSPORT_DIFFUSE ||
-	     hooks_has(frame, HOOK_ANY_HIT | HOOK_CLOSEST_HIT)))
-		err = secondary_paths(band, space, secondary_space(frame, view, 1), n);
-	return err || !dome_is_there(frame) ? err : dome_light_list(band, space, segment_in_buffers(band, r), n);
+		return secondary_openness(band->pass, space, list);
+	err = trace_list(band, bits, view, list, none.visibility);
+	return err || !dome_is_there(frame) ? err : dome_light_list(band, space, list, &area);
 }
 
 int segment_reserve(const struct band *band, uint32_t slots)
 {
 	struct tracer *tr = band->frame->tr;
-	int err = frame_reserve(tr, counts, band->n_pixels);
+	int err = launch_reserve(tr->dev, tr->band->counts, band->n_pixels);
 
 	if (!err)
-		err = frame_reserve(tr, after, band->n_pixels);
-	return err ? err : frame_reserve(tr, sparse, (size_t)slots * band->n_pixels);
+		err = launch_reserve(tr->dev, tr->band->after, band->n_pixels);
+	return err ? err : launch_reserve(tr->dev, tr->band->sparse, (size_t)slots * band->n_pixels);
 }
 
 /* Resolve the fragments of a segment without multisampling, which affect all samples alike. */
@@ -362,14 +392,15 @@ static int run_draws(const struct band *band, const struct segment *segment, con
 	struct tracer *tr = frame->tr;
 	struct camera_rectangle r = segment_rectangle(band, view->scissor);
 	uint32_t slots = segment->mode == CAMERA_COLUMN ? CAMERA_COLUMN_MAX : 1, n_list;
+	struct fragment_list list;
 	int more = rectangle_area(r) != 0, err;
 
 	if (!more)
 		return 0;
 	err = segment_reserve(band, slots);
 	if (!err && slots > 1) { /* columns start at the first fragment */
-		memset(tr->counts, 0, band->n_pixels * sizeof(*tr->counts));
-		err = frame_upload(tr, after, tr->counts, band->n_pixels);
+		memset(tr->band->host_counts, 0, band->n_pixels * sizeof(*tr->band->host_counts));
+		err = launch_upload(tr->dev, tr->band->after, tr->band->host_counts, band->n_pixels);
 	}
 	while (more && !err) {
 		err = segment_trace_camera(band, segment, r, 0);
@@ -379,9 +410,9 @@ static int run_draws(const struct band *band, const struct segment *segment, con
 			              place_on_device(band, slots, &n_list, &more);
 		if (err || n_list == 0)
 			break;
-		err = run_gather(band, r, slots, n_list);
+		err = run_gather(band, r, slots, n_list, &list);
 		if (!err)
-			err = shade_list(band, to->bits, segment->view, r, n_list);
+			err = shade_list(band, to->bits, segment->view, r, &list);
 		if (!err)
 			err = segment->multisample ? run_resolve(band, to, r) : resolve_all(band, r);
 	}
@@ -417,7 +448,7 @@ static int look_at_sample(const struct frame *frame, const struct segment *segme
 	view->scissor[1] = scissor[1] - (from_below ? row : 0);
 	view->scissor[2] = scissor[2] + left;
 	view->scissor[3] = scissor[3] + row;
-	return device_write(frame->tr->dev, frame->tr->buffers.views.buffer, segment->view * sizeof(*view), view,
+	return device_write(frame->tr->dev, frame->tr->placed.views.buffer, segment->view * sizeof(*view), view,
 	                    sizeof(*view));
 }
 
@@ -459,22 +490,10 @@ int segment_run(struct band *band, const struct segment *segment, uint32_t n_cle
 
 int segment_merge_samples(const struct band *band)
 {
-	const struct frame_buffers *b = &band->frame->tr->buffers;
+	const struct pixel_buffers *p = &band->frame->tr->pixels;
 
 	return launch_merge_samples(band->frame->tr->dev, band->n_pixels,
-	                            LAUNCH(merge_samples, .first = b->samples[0], .second = b->samples[1],
-	                                   .third = b->samples[2], .fourth = b->samples[3], .n = band->n_pixels,
-	                                   .frame = b->frame));
-}
-
-int segment_add_pass(const struct band *band, uint32_t first)
-{
-	const struct frame *frame = band->frame;
-	const struct frame_buffers *b = &frame->tr->buffers;
-
-	return launch_add_pass(frame->tr->dev, band->n_pixels,
-	                       LAUNCH(add_pass, .frame = b->frame, .turn = band->pass->turn, .first = first,
-	                              .first_pixel = frame_first_pixel(band),
-	                              .radiant = secondary_transport(frame->options) == TRANSPORT_LINEAR,
-	                              .n = band->n_pixels, .sums = b->sums));
+	                            LAUNCH(merge_samples, .first = p->samples[0], .second = p->samples[1],
+	                                   .third = p->samples[2], .fourth = p->samples[3], .n = band->n_pixels,
+	                                   .frame = p->frame));
 }

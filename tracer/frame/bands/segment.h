@@ -13,7 +13,7 @@ struct camera_rectangle segment_in_buffers(const struct band *band, struct camer
 /** Make room for the fragments that camera rays find in the band: `slots` per pixel. */
 int segment_reserve(const struct band *band, uint32_t slots);
 
-/** Arguments of a camera pass over a rectangle of the band, into buffers.sparse and buffers.counts; run that pass.
+/** Arguments of a camera pass over a rectangle of the band, into the buffers `sparse` and `counts`; run that pass.
  * first: index of the band's first pixel in these buffers */
 struct camera_pass_launch segment_camera_pass(const struct band *band, const struct segment *segment,
                                               struct camera_rectangle r, uint32_t first);
@@ -23,10 +23,13 @@ int segment_trace_camera(const struct band *band, const struct segment *segment,
 /** Merge the clears of the whole picture that the first segment begins with into one. @return number of these clears */
 uint32_t segment_whole_clear(const struct frame *frame, struct scene_clear *out);
 
-/** Write one pixel, as all are after these clears, to buffers.cleared. */
+/** Write one pixel, as all are after these clears, to the buffer `cleared`. */
 int segment_clear_one(const struct frame *frame);
 
-/** Set buffers.drawn for all pixels of the band: 1 if they are in the frame; 0 if they are as in buffers.cleared until
+/** The same once per frame, if its other bands need nothing else there. */
+int segment_clear_first(const struct band *band);
+
+/** Set the buffer `drawn` for all pixels of the band: 1 if they are in the frame; 0 if they are as in `cleared` until
  * drawn to. */
 int segment_say_drawn(const struct band *band, int drawn);
 
@@ -45,6 +48,3 @@ int segment_run(struct band *band, const struct segment *segment, uint32_t n_cle
 
 /** Merge the samples of all pixels into the frame. */
 int segment_merge_samples(const struct band *band);
-
-/** Add the pixels of this pass to the sums of earlier passes. @param first 1: there are no earlier passes */
-int segment_add_pass(const struct band *band, uint32_t first);

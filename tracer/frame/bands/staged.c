@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "tracer/frame/bands/buffers.h"
 #include "tracer/frame/bands/hook_rays.h"
 #include "tracer/frame/bands/segment.h"
 #include "tracer/frame/picture/compose.h"
@@ -19,22 +20,20 @@ static int reserve_pixels(const struct band *band)
 {
 	const struct frame *frame = band->frame;
 	struct tracer *tr = frame->tr;
-	int err = frame_reserve_counts(band);
+	int err = band_reserve_counts(band);
 
 	if (!err)
-		err = frame_reserve(tr, counts, band->n_pixels);
+		err = launch_reserve(tr->dev, tr->band->counts, band->n_pixels);
 	if (!err)
-		err = frame_reserve(tr, frame, band->n_pixels);
+		err = launch_reserve(tr->dev, tr->pixels.frame, band->n_pixels);
 	if (!err)
-		err = frame_reserve(tr, cleared, 1);
+		err = launch_reserve(tr->dev, tr->band->cleared, 1);
 	if (!err)
-		err = frame_reserve(tr, drawn, frame_columns(frame->width) * band->n_rows);
+		err = launch_reserve(tr->dev, tr->band->drawn, frame_columns(frame->width) * band->n_rows);
 	for (uint32_t i = 0; i < band->pass->n_samples && !err; i++)
 		err = launch_reserve(tr->dev, *frame_sample(band->pass, i), band->n_pixels);
 	if (!err && band->pass->count > 1)
-		err = frame_reserve(tr, sums, (size_t)frame->width * frame->height * PASS_PARTS);
-	if (!err)
-		err = frame_reserve(tr, visibility, 3);
+		err = compose_reserve_sums(frame);
 	return err;
 }
 
@@ -60,13 +59,14 @@ static int end_band(const struct band *band)
 
 	if (band->pass->number > 0) {
 		/* A partly added pass cannot be added again. */
-		err = segment_add_pass(band, band->pass->is_first);
+		err = compose_add_pass(band);
 		return err == ERR_MEMORY ? device_report_lack(frame->tr->dev) : err;
 	}
 	err = !frame->scene->start && frame->scene->needs_previous ? picture_count_band(band) : 0;
 	if (err)
 		return err;
-	return band->pass->image ? compose_band(band) : picture_read_band(band, band->pass->picture);
+	return band->pass->image ? compose_band(band, frame->tr->band->cleared, frame->tr->band->drawn) :
+	                           picture_read_band(band, band->pass->picture);
 }
 
 int staged_band(struct band *band)

@@ -17,36 +17,48 @@
 #include "tracer/frame/common/traverse.h"
 #include "tracer/frame/prepare/prepare.h"
 
-/* X(element, name): buffers of a frame other than pools and trees. */
-#define FRAME_BUFFERS(X) FRAME_WHOLE_BUFFERS(X) FRAME_BAND_BUFFERS(X)
-
-/* First the buffers that a frame keeps from band to band, then those of a band. */
-#define FRAME_WHOLE_BUFFERS(X) \
+/* X(element, name): the state and geometry of a frame on the device. */
+#define PLACED_BUFFERS(X) \
 	X(geometry, geometries) X(scene_material, materials) X(scene_light, lights) X(scene_unit, units) \
-	X(scene_current, currents) \
-	X(uint, stipples) X(uint, programs) X(texture_image, textures) X(view, views) \
-	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips) \
-	X(float, sums) X(emitter, emitters) X(float, parameters) X(hook_object, objects)
-#define FRAME_BAND_BUFFERS(X) \
-	X(uint, after) X(fragment, sparse) X(uint, counts) X(uint, first) \
-	X(fragment, fragments) X(uint, pixels) X(shaded, shaded) \
-	X(ray, rays) X(uint, occluded) X(float, visibility) X(uint, wanted) X(float, background) X(uint, places) \
-	X(uint, scan) \
-	X(path, paths) X(ray, path_rays) X(hit, path_hits) X(path, next_paths) X(ray, next_path_rays) X(uint, next_counts) \
-	X(ray, sky_rays) X(hit, sky_hits) X(float, radiance) \
-	X(photon, photons) X(path, shadow_paths) X(ray, shadow_rays) X(hit, shadow_hits) X(path, next_shadow_paths) \
-	X(ray, next_shadow_rays) \
-	X(frame_pixel, cleared) X(uint, drawn) X(dome_place, dome_places) X(float, dome_sums) X(float, dome_directions) \
-	X(ray, dome_rays) X(float, dome_factors) X(uint, blocks) \
-	X(fragment, alone_fragments) X(uint, alone_pixels) X(shaded, alone_shaded) X(uint, leaving) \
-	X(uint, leaving_first) X(float, layer_visibility) X(float, kept_pixels) X(float, next_pixels) \
-	X(layer_clear, layer_clears) X(uint, colors) X(uint, depths) X(uint, unknown) X(half, halves) X(float, floats) \
-	X(hook_answer, answers)
+	X(scene_current, currents) X(uint, stipples) X(uint, programs) X(texture_image, textures) X(view, views) \
+	X(uint, owners) X(shaded_vertex, vertices) X(float, texcoords) X(window_vertex, windows) X(float, clips)
 
-struct frame_buffers {
 #define FRAME_FIELD(element, name) union buffer_##element name;
-	FRAME_BUFFERS(FRAME_FIELD)
-	union buffer_frame_pixel frame, samples[SCENE_SAMPLES]; /* samples: if pixels have several */
+
+/* Filled by place/, read by all rooms. */
+struct placed_buffers {
+	PLACED_BUFFERS(FRAME_FIELD)
+};
+
+/* Pixels of a band. samples: if pixels have several */
+struct pixel_buffers {
+	union buffer_frame_pixel frame, samples[SCENE_SAMPLES];
+};
+
+/* Lists that rooms hand each other. Their buffers belong to one room, which may replace them when a list grows. */
+
+/* Fragments, the numbers of their pixels, and their colours. */
+struct fragment_list {
+	union buffer_fragment fragments;
+	union buffer_uint pixels;
+	union buffer_shaded shaded;
+	uint32_t n;
+};
+
+/* Rays, and room for the share of light that passes along each: [3][n], in red, green and blue. */
+struct light_rays {
+	union buffer_ray rays;
+	union buffer_float visibility;
+	uint32_t n, to_lights; /* to_lights: 0 for rays into the surroundings */
+};
+
+/* Paths with their rays and hits, and room for those that follow from them. */
+struct path_list {
+	union buffer_path paths, next_paths;
+	union buffer_ray rays, next_rays;
+	union buffer_hit hits;
+	union buffer_uint counts; /* number of those that follow from each */
+	uint32_t n;
 };
 
 /* The definition of struct tracer, which trace.h hides. */
@@ -61,9 +73,13 @@ struct tracer {
 		int is_used; /* 1: there was such a frame */
 	} opacity_met;
 	struct traverse_trees trees;
-	struct frame_buffers buffers;
-	uint32_t *counts, *first; /* [pixels], host copies */
-	size_t n_counted;
+	struct placed_buffers placed;
+	struct pixel_buffers pixels;
+	struct hook_buffers *hook; /* the rooms' own buffers */
+	struct light_buffers *light;
+	struct dome_buffers *dome;
+	struct picture_buffers *picture;
+	struct band_buffers *band;
 	uint32_t most_rows; /* most rows in a band, after the device ran out of memory for more; 0: no limit */
 	struct tracer_undrawn undrawn;
 	struct tracer_added added;
@@ -78,7 +94,7 @@ struct frame {
 	const struct scene *scene;
 	const struct tracer_options *options;
 	uint32_t width, height;
-	uint32_t bits;     /* bits of the frame buffer: see pixel_depth_bits */
+	uint32_t bits;      /* bits of the frame buffer: see pixel_depth_bits */
 	uint32_t is_placed; /* 1: state, vertices and trees of the previous pass are on the device; only the picture has
 	                     * to be moved */
 	struct prepared prepared;
@@ -128,10 +144,6 @@ struct band {
 	float background[4]; /* the last colour that pixels were cleared to */
 };
 
-/* Reserve `count` elements of one of the tracer's buffers, by name; reserve and fill it. */
-#define frame_reserve(tr, name, count) launch_reserve((tr)->dev, (tr)->buffers.name, count)
-#define frame_upload(tr, name, data, count) launch_upload((tr)->dev, (tr)->buffers.name, data, count)
-
 /** Tables passed to every shading kernel. */
 struct tables_launch frame_tables(const struct tracer *tr);
 
@@ -143,7 +155,3 @@ int frame_in_packets(const struct frame *frame);
 
 /** The buffer of one sample of the pixels; the frame itself if they have only one. */
 union buffer_frame_pixel *frame_sample(const struct pass *pass, uint32_t sample);
-
-/** Make room for one word per pixel of the band in tracer.counts and tracer.first. @return 0 or ERR_SYSTEM
- * (reported) */
-int frame_reserve_counts(const struct band *band);

@@ -46,14 +46,14 @@ static int ask_bounds(struct frame *frame)
 {
 	struct tracer *tr = frame->tr;
 	struct frame_objects *o = &frame->objects;
-	int err = frame_upload(tr, objects, o->list, o->n);
+	int err = launch_upload(tr->dev, tr->hook->objects, o->list, o->n);
 
 	if (!err)
 		err = launch_hook_bounds(tr->dev, o->n,
-		                         LAUNCH(hook_bounds, .parameters = tr->buffers.parameters,
+		                         LAUNCH(hook_bounds, .parameters = tr->hook->parameters,
 		                                .words = frame->options->hook->words, .n = o->n,
-		                                .objects = tr->buffers.objects));
-	return err ? err : device_read(tr->dev, tr->buffers.objects.buffer, 0, o->list, o->n * sizeof(*o->list));
+		                                .objects = tr->hook->objects));
+	return err ? err : device_read(tr->dev, tr->hook->objects.buffer, 0, o->list, o->n * sizeof(*o->list));
 }
 
 /* Keep the objects that have a box, and make rays ignore their triangles. */
@@ -119,7 +119,7 @@ static int upload_currents(const struct frame *frame)
 		if (mesh->secondary)
 			memcpy(c->secondary, mesh->secondary, sizeof(c->secondary));
 	}
-	err = frame_upload(frame->tr, currents, currents, scene->n_currents + o->n);
+	err = launch_upload(frame->tr->dev, frame->tr->placed.currents, currents, scene->n_currents + o->n);
 	free(currents);
 	return err;
 }
@@ -145,7 +145,7 @@ int hook_objects_find(struct frame *frame)
 		return err;
 	err = make_mesh(o, frame->width);
 	if (!err)
-		err = frame_upload(frame->tr, objects, o->list, o->n);
+		err = launch_upload(frame->tr->dev, frame->tr->hook->objects, o->list, o->n);
 	return err ? err : upload_currents(frame);
 }
 
@@ -194,22 +194,23 @@ int hook_objects_in(const struct frame *frame, const struct accel_space *space)
 int hook_objects_intersect(const struct frame *frame, const struct traverse_rays *rays, enum hook_rays_of whose)
 {
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
+	const struct hook_buffers *b = frame->tr->hook;
 
 	if (rays->n > frame->objects.room)
 		return ERR_MEMORY;
 	return launch_hook_intersect(
 		tr->dev, rays->n,
-		LAUNCH(hook_intersect, .tables = frame_tables(tr), .views = b->views, .objects = b->objects,
-	               .n_objects = frame->objects.n, .rays = rays->rays, .parameters = b->parameters,
-	               .words = frame->options->hook->words, .alone = !rays->space->n_nodes,
-	               .first_slot = (uint32_t)whose * frame->objects.room, .n = rays->n, .hits = rays->hits,
-	               .made = b->vertices, .made_coords = b->texcoords, .windows = b->windows));
+		LAUNCH(hook_intersect, .tables = frame_tables(tr), .views = frame->tr->placed.views,
+	               .objects = b->objects, .n_objects = frame->objects.n, .rays = rays->rays,
+	               .parameters = b->parameters, .words = frame->options->hook->words,
+	               .alone = !rays->space->n_nodes, .first_slot = (uint32_t)whose * frame->objects.room,
+	               .n = rays->n, .hits = rays->hits, .made = frame->tr->placed.vertices,
+	               .made_coords = frame->tr->placed.texcoords, .windows = frame->tr->placed.windows));
 }
 
 int hook_objects_occlude(const struct frame *frame, const struct traverse_rays *rays)
 {
-	const struct frame_buffers *b = &frame->tr->buffers;
+	const struct hook_buffers *b = frame->tr->hook;
 
 	return launch_hook_occlude(frame->tr->dev, rays->n,
 	                           LAUNCH(hook_occlude, .objects = b->objects, .n_objects = frame->objects.n,

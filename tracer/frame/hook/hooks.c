@@ -14,6 +14,11 @@ uint32_t hooks_row(const struct frame *frame)
 	return frame->scene->n_materials * frame->options->hook->words;
 }
 
+union buffer_float hooks_parameters(const struct frame *frame)
+{
+	return frame->tr->hook->parameters;
+}
+
 int hooks_place(struct frame *frame)
 {
 	const struct hook *hook = frame->options->hook;
@@ -40,7 +45,7 @@ int hooks_place(struct frame *frame)
 			hook_fill_row(hook, scene->parameters + scene->materials[i].surface.parameter_first,
 			              scene->materials[i].surface.parameter_count, row);
 	}
-	err = frame_upload(frame->tr, parameters, rows, hooks_row(frame) + hook->words + 1);
+	err = launch_upload(frame->tr->dev, frame->tr->hook->parameters, rows, hooks_row(frame) + hook->words + 1);
 	free(rows);
 	return err;
 }
@@ -58,102 +63,108 @@ static struct hook_trees_launch trees_of(const struct frame *frame, const struct
 		                           .nodes = frame->options->hook->asks_boxes ? t->nodes2 : t->top2 };
 }
 
-int hooks_shade(const struct frame *frame, const struct accel_space *space, uint32_t transport, uint32_t n)
+int hooks_shade(const struct frame *frame, const struct accel_space *space, uint32_t transport,
+                const struct fragment_list *from, union buffer_float visibility)
 {
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
-	int err = frame_reserve(tr, answers, n);
+	const struct hook_buffers *b = frame->tr->hook;
+	int err = launch_reserve(tr->dev, tr->hook->answers, from->n);
 
 	if (err)
 		return err;
 	return launch_hook_shade(
-		tr->dev, n,
-		LAUNCH(hook_shade, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
-	               .fragments = b->fragments, .pixels = b->pixels, .width = frame->width,
-	               .visibility = b->visibility, .n_slots = frame->prepared.n_light_slots, .transport = transport,
-	               .parameters = b->parameters, .words = frame->options->hook->words,
-	               .trees = trees_of(frame, space), .n = n, .shaded = b->shaded, .answers = b->answers));
+		tr->dev, from->n,
+		LAUNCH(hook_shade, .tables = frame_tables(tr), .views = frame->tr->placed.views,
+	               .windows = frame->tr->placed.windows, .fragments = from->fragments, .pixels = from->pixels,
+	               .width = frame->width, .visibility = visibility, .n_slots = frame->prepared.n_light_slots,
+	               .transport = transport, .parameters = b->parameters, .words = frame->options->hook->words,
+	               .trees = trees_of(frame, space), .n = from->n, .shaded = from->shaded, .answers = b->answers));
 }
 
-int hooks_ways(const struct frame *frame, uint32_t transport, uint32_t n)
+int hooks_ways(const struct frame *frame, uint32_t transport, const struct fragment_list *from,
+               const struct path_list *paths)
 {
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
+	const struct hook_buffers *b = frame->tr->hook;
 
-	return launch_hook_ways(tr->dev, n,
-	                        LAUNCH(hook_ways, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
-	                               .fragments = b->fragments, .pixels = b->pixels, .width = frame->width,
-	                               .answers = b->answers, .transport = transport, .n = n, .shaded = b->shaded,
-	                               .next_rays = b->next_path_rays, .next_paths = b->next_paths,
-	                               .counts = b->next_counts));
+	return launch_hook_ways(tr->dev, from->n,
+	                        LAUNCH(hook_ways, .tables = frame_tables(tr), .views = frame->tr->placed.views,
+	                               .windows = frame->tr->placed.windows, .fragments = from->fragments,
+	                               .pixels = from->pixels, .width = frame->width, .answers = b->answers,
+	                               .transport = transport, .n = from->n, .shaded = from->shaded,
+	                               .next_rays = paths->next_rays, .next_paths = paths->next_paths,
+	                               .counts = paths->counts));
 }
 
-int hooks_hit(const struct frame *frame, const struct accel_space *space, uint32_t transport, uint32_t n)
+int hooks_hit(const struct frame *frame, const struct accel_space *space, uint32_t transport,
+              const struct path_list *paths, union buffer_float visibility, union buffer_float radiance)
 {
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
+	const struct hook_buffers *b = frame->tr->hook;
 
 	return launch_hook_hit(
-		tr->dev, n,
-		LAUNCH(hook_hit, .tables = frame_tables(tr), .hits = b->path_hits, .rays = b->path_rays,
-	               .paths = b->paths, .visibility = b->visibility, .n_slots = frame->prepared.n_light_slots,
+		tr->dev, paths->n,
+		LAUNCH(hook_hit, .tables = frame_tables(tr), .hits = paths->hits, .rays = paths->rays,
+	               .paths = paths->paths, .visibility = visibility, .n_slots = frame->prepared.n_light_slots,
 	               .transport = transport, .depth = frame->options->depth, .parameters = b->parameters,
 	               .words = frame->options->hook->words, .row = hooks_row(frame), .trees = trees_of(frame, space),
-	               .n = n, .radiance = b->radiance, .next_rays = b->next_path_rays, .next_paths = b->next_paths,
-	               .counts = b->next_counts));
+	               .n = paths->n, .radiance = radiance, .next_rays = paths->next_rays,
+	               .next_paths = paths->next_paths, .counts = paths->counts));
 }
 
-int hooks_walk(const struct frame *frame, uint32_t transport, uint32_t n)
+int hooks_walk(const struct frame *frame, uint32_t transport, const struct path_list *walks)
 {
-	const struct frame_buffers *b = &frame->tr->buffers;
+	const struct hook_buffers *b = frame->tr->hook;
 
-	return launch_hook_walk(frame->tr->dev, n,
-	                        LAUNCH(hook_walk, .tables = frame_tables(frame->tr), .hits = b->shadow_hits,
-	                               .rays = b->shadow_rays, .paths = b->shadow_paths, .transport = transport,
-	                               .parameters = b->parameters, .words = frame->options->hook->words, .n = n,
-	                               .next_rays = b->next_shadow_rays, .next_paths = b->next_shadow_paths,
-	                               .counts = b->next_counts));
+	return launch_hook_walk(frame->tr->dev, walks->n,
+	                        LAUNCH(hook_walk, .tables = frame_tables(frame->tr), .hits = walks->hits,
+	                               .rays = walks->rays, .paths = walks->paths, .transport = transport,
+	                               .parameters = b->parameters, .words = frame->options->hook->words, .n = walks->n,
+	                               .next_rays = walks->next_rays, .next_paths = walks->next_paths,
+	                               .counts = walks->counts));
 }
 
 /* --- Light ------------------------------------------------------------------------------------------------------- */
 
-int hooks_light(const struct frame *frame, uint32_t transport, uint32_t n)
+int hooks_light(const struct frame *frame, uint32_t transport, const struct fragment_list *from,
+                const struct light_rays *rays)
 {
-	const struct frame_buffers *b = &frame->tr->buffers;
-	const uint32_t n_rays = frame->prepared.n_light_slots * n;
+	const struct hook_buffers *b = frame->tr->hook;
+	const uint32_t n_rays = frame->prepared.n_light_slots * from->n;
 
 	return launch_hook_light(frame->tr->dev, n_rays,
-	                         LAUNCH(hook_light, .tables = frame_tables(frame->tr), .windows = b->windows,
-	                                .fragments = b->fragments, .rays = b->rays, .transport = transport,
-	                                .parameters = b->parameters, .words = frame->options->hook->words, .n = n,
-	                                .n_rays = n_rays, .visibility = b->visibility));
+	                         LAUNCH(hook_light, .tables = frame_tables(frame->tr),
+	                                .windows = frame->tr->placed.windows, .fragments = from->fragments,
+	                                .rays = rays->rays, .transport = transport, .parameters = b->parameters,
+	                                .words = frame->options->hook->words, .n = from->n, .n_rays = n_rays,
+	                                .visibility = rays->visibility));
 }
 
-int hooks_light_hits(const struct frame *frame, uint32_t transport, uint32_t n)
+int hooks_light_hits(const struct frame *frame, uint32_t transport, const struct path_list *paths,
+                     const struct light_rays *rays)
 {
-	const struct frame_buffers *b = &frame->tr->buffers;
-	const uint32_t n_rays = frame->prepared.n_light_slots * n;
+	const struct hook_buffers *b = frame->tr->hook;
+	const uint32_t n_rays = frame->prepared.n_light_slots * paths->n;
 
 	return launch_hook_light_hit(frame->tr->dev, n_rays,
-	                             LAUNCH(hook_light_hit, .tables = frame_tables(frame->tr), .hits = b->path_hits,
-	                                    .path_rays = b->path_rays, .rays = b->rays, .transport = transport,
-	                                    .parameters = b->parameters, .words = frame->options->hook->words, .n = n,
-	                                    .n_rays = n_rays, .visibility = b->visibility));
+	                             LAUNCH(hook_light_hit, .tables = frame_tables(frame->tr), .hits = paths->hits,
+	                                    .path_rays = paths->rays, .rays = rays->rays, .transport = transport,
+	                                    .parameters = b->parameters, .words = frame->options->hook->words,
+	                                    .n = paths->n, .n_rays = n_rays, .visibility = rays->visibility));
 }
 
 /* --- Rays that replace a camera's -------------------------------------------------------------------------------- */
 
-int hooks_see(const struct band *band, uint32_t n)
+int hooks_see(const struct band *band, const struct path_list *paths, union buffer_uint pixels)
 {
 	const struct frame *frame = band->frame;
-	const struct frame_buffers *b = &frame->tr->buffers;
 	int err = 0;
 
 	for (uint32_t i = 0; i < band->pass->n_samples && !err; i++)
-		err = launch_hook_see(frame->tr->dev, n,
-		                      LAUNCH(hook_see, .tables = frame_tables(frame->tr), .hits = b->path_hits,
-		                             .paths = b->paths, .pixels = b->pixels,
-		                             .first_pixel = frame_first_pixel(band), .n = n,
+		err = launch_hook_see(frame->tr->dev, paths->n,
+		                      LAUNCH(hook_see, .tables = frame_tables(frame->tr), .hits = paths->hits,
+		                             .paths = paths->paths, .pixels = pixels,
+		                             .first_pixel = frame_first_pixel(band), .n = paths->n,
 		                             .frame = *frame_sample(band->pass, i)));
 	return err;
 }

@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 #include "kernels/frame/light/emitter.h"
+#include "tracer/frame/light/buffers.h"
 
 /* A list under construction. sums: running sum up to each emitter, finally converted to its `end`, a fraction of the
  * total. */
@@ -124,7 +125,8 @@ static int add_space(const struct frame *frame, uint32_t transport, struct makin
 int emitters_place(struct frame *frame, uint32_t transport)
 {
 	struct making making = { 0 };
-	int err = frame_reserve(frame->tr, emitters, 1); /* kernels need the buffer even if it is empty */
+	int err = launch_reserve(frame->tr->dev, frame->tr->light->emitters, 1); /* kernels need the buffer even if it
+	                                                                            is empty */
 
 	if (err || transport < TRANSPORT_PATH)
 		return err;
@@ -135,7 +137,7 @@ int emitters_place(struct frame *frame, uint32_t transport)
 		if (!frame->spaces[i].sky && frame->spaces[i].n_nodes)
 			err = add_space(frame, transport, &making, &frame->spaces[i], &frame->emissions[i]);
 	if (!err && making.n)
-		err = frame_upload(frame->tr, emitters, making.list, making.n);
+		err = launch_upload(frame->tr->dev, frame->tr->light->emitters, making.list, making.n);
 	free(making.list);
 	free(making.sums);
 	return err;
@@ -146,7 +148,7 @@ struct emission_launch emitters_of(const struct frame *frame, const struct accel
 	const struct emission_list none = { 0 },
 				   *e = frame->emissions ? &frame->emissions[space - frame->spaces] : &none;
 
-	return (struct emission_launch){ .emitters = frame->tr->buffers.emitters,
+	return (struct emission_launch){ .emitters = frame->tr->light->emitters,
 		                         .emitter_first = e->first,
 		                         .n_emitters = e->n,
 		                         .emitted = e->emitted };

@@ -8,6 +8,7 @@
 #include "base/err.h"
 #include "kernels/frame/light/sample.h"
 #include "kernels/gl/light.h"
+#include "tracer/frame/light/buffers.h"
 #include "tracer/frame/light/secondary.h"
 
 #define PHOTONS_OF_PASS (1u << 17)
@@ -361,11 +362,11 @@ static int run_pass(struct photons *p, uint32_t pass)
 {
 	struct tracer *tr = p->frame->tr;
 	const uint32_t n = make_photons(p, pass);
-	int err = frame_upload(tr, path_rays, p->rays, n);
+	int err = launch_upload(tr->dev, tr->light->path_rays, p->rays, n);
 
 	p->n_found = 0;
 	if (!err)
-		err = frame_upload(tr, paths, p->paths, n);
+		err = launch_upload(tr->dev, tr->light->paths, p->paths, n);
 	if (!err)
 		err = secondary_photons(p->frame, p->space, pass, n, take, p);
 	return err || !p->lacks_memory ? err : err_report(ERR_SYSTEM, NULL, "out of memory");

@@ -6,6 +6,7 @@
 #include "kernels/rays/opacity.h"
 #include "tracer/frame/hook/hook_objects.h"
 #include "tracer/frame/hook/hooks.h"
+#include "tracer/frame/light/buffers.h"
 #include "tracer/frame/light/emitters.h"
 #include "tracer/frame/light/scan.h"
 #include "tracer/frame/place/opacity.h"
@@ -77,19 +78,26 @@ struct list {
 	union buffer_ray *rays, *next_rays;
 };
 
-static struct list path_list(const struct frame *frame)
+static struct list list_of_paths(const struct frame *frame)
 {
-	struct frame_buffers *b = &frame->tr->buffers;
+	struct light_buffers *b = frame->tr->light;
 
 	return (struct list){ &b->paths, &b->next_paths, &b->path_rays, &b->next_path_rays };
 }
 
 /* The list of rays to lights that continue beyond the surface that stopped them. */
-static struct list shadow_list(const struct frame *frame)
+static struct list list_of_shadows(const struct frame *frame)
 {
-	struct frame_buffers *b = &frame->tr->buffers;
+	struct light_buffers *b = frame->tr->light;
 
 	return (struct list){ &b->shadow_paths, &b->next_shadow_paths, &b->shadow_rays, &b->next_shadow_rays };
+}
+
+/* The same n paths for other rooms. */
+static struct path_list path_list(const struct frame *frame, const struct list *list, union buffer_hit hits, uint32_t n)
+{
+	return (struct path_list){ *list->paths, *list->next_paths, *list->rays, *list->next_rays, hits,
+		                   frame->tr->light->next_counts, n };
 }
 
 static int reserve_list(const struct frame *frame, const struct list *list, size_t n)
@@ -112,14 +120,14 @@ static int place(const struct frame *frame, union buffer_uint counts, uint32_t n
 	struct tracer *tr = frame->tr;
 
 	return scan_counts(tr->dev,
-	                   &(const struct scan_list){ counts, n, SCENE_NONE, &tr->buffers.places, &tr->buffers.scan },
+	                   &(const struct scan_list){ counts, n, SCENE_NONE, &tr->light->places, &tr->light->scan },
 	                   total, NULL);
 }
 
 /* Replace a list by the results of its n paths, up to `slots` each. */
 static int gather_list(const struct frame *frame, const struct list *list, uint32_t slots, uint32_t *n)
 {
-	const struct frame_buffers *b = &frame->tr->buffers;
+	struct light_buffers *b = frame->tr->light;
 	uint32_t from = *n;
 	int err = place(frame, b->next_counts, from, n);
 
@@ -140,7 +148,7 @@ static int start_walk(const struct frame *frame, const struct list *list, union 
                       float weight, uint32_t *n)
 {
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
+	struct light_buffers *b = tr->light;
 	int err = place(frame, b->occluded, n_rays, n);
 
 	if (err || *n == 0)
@@ -149,9 +157,9 @@ static int start_walk(const struct frame *frame, const struct list *list, union 
 	if (!err)
 		err = reserve_next(frame, list, *n);
 	if (!err)
-		err = frame_reserve(tr, shadow_hits, *n);
+		err = launch_reserve(tr->dev, tr->light->shadow_hits, *n);
 	if (!err)
-		err = frame_reserve(tr, next_counts, *n);
+		err = launch_reserve(tr->dev, tr->light->next_counts, *n);
 	if (err)
 		return err;
 	return launch_shadow_start(tr->dev, n_rays,
@@ -160,13 +168,20 @@ static int start_walk(const struct frame *frame, const struct list *list, union 
 	                                  .shadow_paths = *list->paths));
 }
 
+static int walk_hooks(const struct frame *frame, const struct list *list, uint32_t n)
+{
+	const struct path_list walks = path_list(frame, list, frame->tr->light->shadow_hits, n);
+
+	return hooks_walk(frame, secondary_transport(frame->options), &walks);
+}
+
 /* Continue those of the rays that shadow_sum left as stopped, through transmitting surfaces one after another. */
 static int walk_layers(const struct frame *frame, const struct accel_space *space, const struct light_rays *to,
                        float weight)
 {
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
-	const struct list list = shadow_list(frame);
+	struct light_buffers *b = tr->light;
+	const struct list list = list_of_shadows(frame);
 	uint32_t n;
 	int err = start_walk(frame, &list, to->rays, to->n, weight, &n);
 
@@ -183,7 +198,7 @@ static int walk_layers(const struct frame *frame, const struct accel_space *spac
 			                                .next_rays = *list.next_rays, .next_paths = *list.next_paths,
 			                                .counts = b->next_counts));
 		if (!err && hooks_has(frame, HOOK_ANY_HIT))
-			err = hooks_walk(frame, secondary_transport(frame->options), n);
+			err = walk_hooks(frame, &list, n);
 		if (!err)
 			err = gather_list(frame, &list, 1, &n);
 	}
@@ -194,7 +209,7 @@ static int walk_layers(const struct frame *frame, const struct accel_space *spac
 static int ask(const struct frame *frame, const struct accel_space *space, const struct light_rays *r, uint32_t sample,
                uint32_t samples)
 {
-	const struct frame_buffers *b = &frame->tr->buffers;
+	struct light_buffers *b = frame->tr->light;
 	const int asks = hooks_has(frame, HOOK_ANY_HIT), transparent = frame->prepared.has_transparency,
 		  through = asks || (transparent && !opacity_is_known(frame, space));
 	float weight = 1.0f / (float)samples;
@@ -208,15 +223,18 @@ static int ask(const struct frame *frame, const struct accel_space *space, const
 	return err || !(r->to_lights || transparent || asks) ? err : walk_layers(frame, space, r, weight);
 }
 
-int secondary_reserve_rays(const struct frame *frame, size_t n_rays, union buffer_float *visibility)
+int secondary_reserve_rays(const struct frame *frame, size_t n_rays, union buffer_float *visibility,
+                           struct light_rays *out)
 {
 	struct tracer *tr = frame->tr;
-	int err = frame_reserve(tr, rays, n_rays);
+	union buffer_float *to = visibility ? visibility : &tr->light->visibility;
+	int err = launch_reserve(tr->dev, tr->light->rays, n_rays);
 
 	if (!err)
-		err = frame_reserve(tr, occluded, n_rays);
+		err = launch_reserve(tr->dev, tr->light->occluded, n_rays);
 	if (!err)
-		err = launch_reserve(tr->dev, *visibility, 3 * n_rays);
+		err = launch_reserve(tr->dev, *to, 3 * n_rays);
+	*out = (struct light_rays){ tr->light->rays, *to, (uint32_t)n_rays, 1 };
 	return err;
 }
 
@@ -225,14 +243,8 @@ int secondary_ask(const struct frame *frame, const struct accel_space *space, co
 	return ask(frame, space, rays, 0, 1);
 }
 
-/* The first n of buffers.rays. */
-static struct light_rays own_rays(const struct frame *frame, uint32_t to_lights, uint32_t n)
-{
-	return (struct light_rays){ frame->tr->buffers.rays, frame->tr->buffers.visibility, n, to_lights };
-}
-
 /* Rays to each light per pass. */
-static uint32_t light_rays(const struct frame *frame)
+static uint32_t rays_per_light(const struct frame *frame)
 {
 	uint32_t wide = 0;
 
@@ -241,21 +253,22 @@ static uint32_t light_rays(const struct frame *frame)
 	return wide && frame->options->mode != TRACER_PATH ? frame->options->rays : 1;
 }
 
-int secondary_shadows(const struct pass *pass, const struct accel_space *space, uint32_t n)
+int secondary_shadows(const struct pass *pass, const struct accel_space *space, const struct fragment_list *from,
+                      union buffer_float *visibility)
 {
 	const struct frame *frame = pass->frame;
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
-	uint32_t n_rays = frame->prepared.n_light_slots * n, samples = light_rays(frame);
-	int err = secondary_reserve_rays(frame, n_rays, &tr->buffers.visibility);
+	struct light_buffers *b = tr->light;
+	const uint32_t n = from->n, n_rays = frame->prepared.n_light_slots * n, samples = rays_per_light(frame);
+	struct light_rays rays;
+	int err = secondary_reserve_rays(frame, n_rays, NULL, &rays);
 
 	for (uint32_t i = 0; i < samples && !err; i++) {
-		const struct light_rays rays = own_rays(frame, 1, n_rays);
 		const struct shadow_ray_launch *a = LAUNCH(
-			shadow_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
-			.fragments = b->fragments, .pixels = b->pixels, .width = frame->width, .shaded = b->shaded,
-			.sample = pass->number * samples + i, .frame = frame_number(frame), .n = n, .n_rays = n_rays,
-			.rays = b->rays);
+			shadow_ray, .tables = frame_tables(tr), .views = tr->placed.views,
+			.windows = tr->placed.windows, .fragments = from->fragments, .pixels = from->pixels,
+			.width = frame->width, .shaded = from->shaded, .sample = pass->number * samples + i,
+			.frame = frame_number(frame), .n = n, .n_rays = n_rays, .rays = b->rays);
 
 		if (frame_in_packets(frame))
 			err = launch_shadow_ray_packet(tr->dev, packs(n_rays), a);
@@ -264,67 +277,73 @@ int secondary_shadows(const struct pass *pass, const struct accel_space *space, 
 		if (!err)
 			err = ask(frame, space, &rays, i, samples);
 	}
-	return err || !hooks_has(frame, HOOK_LIGHT) ? err : hooks_light(frame, secondary_transport(frame->options), n);
+	*visibility = rays.visibility;
+	return err || !hooks_has(frame, HOOK_LIGHT) ?
+	               err :
+	               hooks_light(frame, secondary_transport(frame->options), from, &rays);
 }
 
 /* The same from the hits of n paths. */
-static int trace_hit_shadows(const struct pass *pass, const struct accel_space *space, uint32_t transport, uint32_t n)
+static int trace_hit_shadows(const struct pass *pass, const struct accel_space *space, const struct path_list *paths,
+                             union buffer_uint pixels)
 {
 	const struct frame *frame = pass->frame;
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
+	struct light_buffers *b = tr->light;
 	const struct emission_launch emission = emitters_of(frame, space);
-	const uint32_t n_rays = frame->prepared.n_light_slots * n, samples = (light_rays(frame) + 3) / 4,
+	const uint32_t n = paths->n, transport = secondary_transport(frame->options);
+	const uint32_t n_rays = frame->prepared.n_light_slots * n, samples = (rays_per_light(frame) + 3) / 4,
 		       all = n_rays + (emission.n_emitters ? n : 0);
 	const int packets = frame_in_packets(frame);
-	int err = secondary_reserve_rays(frame, all, &tr->buffers.visibility);
+	struct light_rays rays;
+	int err = secondary_reserve_rays(frame, all, NULL, &rays);
 
 	if (!err)
-		err = frame_reserve(tr, wanted, n);
+		err = launch_reserve(tr->dev, tr->light->wanted, n);
 	if (!err && !packets)
 		err = launch_want_lights(tr->dev, n,
-		                         LAUNCH(want_lights, .tables = frame_tables(tr), .hits = b->path_hits,
-		                                .rays = b->path_rays, .transport = transport, .n = n,
+		                         LAUNCH(want_lights, .tables = frame_tables(tr), .hits = paths->hits,
+		                                .rays = paths->rays, .transport = transport, .n = n,
 		                                .wanted = b->wanted));
 	for (uint32_t i = 0; i < samples && !err; i++) {
-		const struct light_rays rays = own_rays(frame, 1, all);
 		const struct hit_ray_launch *a = LAUNCH(
-			hit_ray, .tables = frame_tables(tr), .hits = b->path_hits, .rays = b->path_rays,
-			.paths = b->paths, .pixels = b->pixels, .wanted = b->wanted, .transport = transport,
+			hit_ray, .tables = frame_tables(tr), .hits = paths->hits, .rays = paths->rays,
+			.paths = paths->paths, .pixels = pixels, .wanted = b->wanted, .transport = transport,
 			.sample = pass->number * samples + i, .frame = frame_number(frame), .n = n, .n_rays = n_rays,
 			.out = b->rays);
 
 		err = packets ? launch_hit_ray_packet(tr->dev, packs(n), a) : launch_hit_ray(tr->dev, n_rays, a);
 		if (!err && all > n_rays)
 			err = launch_bounce_ray(tr->dev, n,
-			                        LAUNCH(bounce_ray, .tables = frame_tables(tr), .hits = b->path_hits,
-			                               .rays = b->path_rays, .paths = b->paths, .pixels = b->pixels,
+			                        LAUNCH(bounce_ray, .tables = frame_tables(tr), .hits = paths->hits,
+			                               .rays = paths->rays, .paths = paths->paths, .pixels = pixels,
 			                               .emission = emission, .sample = pass->number,
 			                               .frame = frame_number(frame), .depth = frame->options->depth,
 			                               .first = n_rays, .n = n, .out = b->rays));
 		if (!err)
 			err = ask(frame, space, &rays, i, samples);
 	}
-	return err || !hooks_has(frame, HOOK_LIGHT) ? err : hooks_light_hits(frame, transport, n);
+	return err || !hooks_has(frame, HOOK_LIGHT) ? err : hooks_light_hits(frame, transport, paths, &rays);
 }
 
 /* --- Openness ---------------------------------------------------------------------------------------------------- */
 
-int secondary_openness(const struct pass *pass, const struct accel_space *space, uint32_t n)
+int secondary_openness(const struct pass *pass, const struct accel_space *space, const struct fragment_list *from)
 {
 	const struct frame *frame = pass->frame;
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
-	uint32_t samples = frame->options->rays;
-	int err = secondary_reserve_rays(frame, n, &tr->buffers.visibility);
+	struct light_buffers *b = tr->light;
+	const uint32_t n = from->n, samples = frame->options->rays;
+	struct light_rays rays;
+	int err = secondary_reserve_rays(frame, n, NULL, &rays);
 
+	rays.to_lights = 0;
 	for (uint32_t i = 0; i < samples && !err; i++) {
-		const struct light_rays rays = own_rays(frame, 0, n);
-
 		err = launch_ao_ray(tr->dev, n,
-		                    LAUNCH(ao_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
-		                           .fragments = b->fragments, .pixels = b->pixels, .width = frame->width,
-		                           .shaded = b->shaded, .sample = pass->number * samples + i,
+		                    LAUNCH(ao_ray, .tables = frame_tables(tr), .views = tr->placed.views,
+		                           .windows = tr->placed.windows, .fragments = from->fragments,
+		                           .pixels = from->pixels, .width = frame->width, .shaded = from->shaded,
+		                           .sample = pass->number * samples + i,
 		                           .reach = frame->options->reach > 0 ? frame->options->reach : 1e30f, .n = n,
 		                           .rays = b->rays));
 		if (!err)
@@ -334,49 +353,52 @@ int secondary_openness(const struct pass *pass, const struct accel_space *space,
 		return err;
 	return launch_ao_shade(tr->dev, n,
 	                       LAUNCH(ao_shade, .visibility = b->visibility,
-	                              .over_gl = frame->options->mode == TRACER_AO_PHONG, .n = n, .shaded = b->shaded));
+	                              .over_gl = frame->options->mode == TRACER_AO_PHONG, .n = n,
+	                              .shaded = from->shaded));
 }
 
 /* --- Paths ------------------------------------------------------------------------------------------------------- */
 
-/* Find the emissive surfaces that each of n fragments sees, into buffers.visibility. */
-static int ask_emitters(const struct pass *pass, const struct accel_space *space, uint32_t n)
+/* Find the emissive surfaces that each of n fragments sees, into the room's visibility. */
+static int ask_emitters(const struct pass *pass, const struct accel_space *space, const struct fragment_list *from)
 {
 	const struct frame *frame = pass->frame;
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
+	struct light_buffers *b = tr->light;
 	const struct emission_launch emission = emitters_of(frame, space);
-	int err = emission.n_emitters ? secondary_reserve_rays(frame, n, &tr->buffers.visibility) : 0;
+	const uint32_t n = from->n;
 	struct light_rays rays;
+	int err = emission.n_emitters ? secondary_reserve_rays(frame, n, NULL, &rays) : 0;
 
 	if (err || !emission.n_emitters)
 		return err;
-	rays = own_rays(frame, 1, n);
 	err = launch_leave_ray(tr->dev, n,
-	                       LAUNCH(leave_ray, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
-	                              .fragments = b->fragments, .pixels = b->pixels, .width = frame->width,
-	                              .shaded = b->shaded, .emission = emission, .sample = pass->number,
-	                              .frame = frame_number(frame), .n = n, .rays = b->rays));
+	                       LAUNCH(leave_ray, .tables = frame_tables(tr), .views = tr->placed.views,
+	                              .windows = tr->placed.windows, .fragments = from->fragments,
+	                              .pixels = from->pixels, .width = frame->width, .shaded = from->shaded,
+	                              .emission = emission, .sample = pass->number, .frame = frame_number(frame),
+	                              .n = n, .rays = b->rays));
 	return err ? err : ask(frame, space, &rays, 0, 1);
 }
 
-static int leave(const struct pass *pass, const struct list *list, const struct accel_space *space, uint32_t transport,
-                 uint32_t n)
+static int leave(const struct pass *pass, const struct list *list, const struct accel_space *space,
+                 const struct fragment_list *from)
 {
 	const struct frame *frame = pass->frame;
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
+	struct light_buffers *b = tr->light;
+	const uint32_t n = from->n, transport = secondary_transport(frame->options);
 	const struct leave_launch *a;
 	int err = reserve_next(frame, list, (size_t)PATHS_PER_FRAGMENT * n);
 
 	if (!err)
-		err = frame_reserve(tr, next_counts, n);
+		err = launch_reserve(tr->dev, tr->light->next_counts, n);
 	if (err)
 		return err;
-	a = LAUNCH(leave, .tables = frame_tables(tr), .views = b->views, .windows = b->windows,
-	           .fragments = b->fragments, .pixels = b->pixels, .width = frame->width, .transport = transport,
+	a = LAUNCH(leave, .tables = frame_tables(tr), .views = tr->placed.views, .windows = tr->placed.windows,
+	           .fragments = from->fragments, .pixels = from->pixels, .width = frame->width, .transport = transport,
 	           .sample = pass->number, .frame = frame_number(frame), .emission = emitters_of(frame, space),
-	           .visibility = b->visibility, .n = n, .shaded = b->shaded, .next_rays = *list->next_rays,
+	           .visibility = b->visibility, .n = n, .shaded = from->shaded, .next_rays = *list->next_rays,
 	           .next_paths = *list->next_paths, .counts = b->next_counts);
 	return frame_in_packets(frame) ? launch_leave_packet(tr->dev, packs(n), a) : launch_leave(tr->dev, n, a);
 }
@@ -384,12 +406,12 @@ static int leave(const struct pass *pass, const struct list *list, const struct 
 static int look_at_sky(const struct frame *frame, const struct accel_space *sky, uint32_t n)
 {
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
-	int err = frame_reserve(tr, sky_hits, sky ? n : 1);
+	struct light_buffers *b = tr->light;
+	int err = launch_reserve(tr->dev, tr->light->sky_hits, sky ? n : 1);
 
 	if (err || !sky)
 		return err;
-	err = frame_reserve(tr, sky_rays, n);
+	err = launch_reserve(tr->dev, tr->light->sky_rays, n);
 	if (!err)
 		err = launch_sky_ray(
 			tr->dev, n,
@@ -400,25 +422,26 @@ static int look_at_sky(const struct frame *frame, const struct accel_space *sky,
 }
 
 static int shade_hits(const struct pass *pass, const struct list *list, const struct accel_space *space,
-                      uint32_t has_sky, uint32_t transport, uint32_t n)
+                      uint32_t has_sky, const struct fragment_list *from, uint32_t n)
 {
 	const struct frame *frame = pass->frame;
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
+	struct light_buffers *b = tr->light;
+	const uint32_t transport = secondary_transport(frame->options);
 	const struct shade_hit_launch *a;
 	int err = reserve_next(frame, list, (size_t)PATHS_PER_HIT * n);
 
 	if (!err)
-		err = frame_reserve(tr, next_counts, n);
+		err = launch_reserve(tr->dev, tr->light->next_counts, n);
 	if (!err)
-		err = frame_reserve(tr, radiance, 3 * (size_t)n);
+		err = launch_reserve(tr->dev, tr->light->radiance, 3 * (size_t)n);
 	if (err)
 		return err;
 	a = LAUNCH(shade_hit, .tables = frame_tables(tr), .hits = b->path_hits, .sky = b->sky_hits, .has_sky = has_sky,
-	           .rays = *list->rays, .paths = *list->paths, .pixels = b->pixels, .visibility = b->visibility,
+	           .rays = *list->rays, .paths = *list->paths, .pixels = from->pixels, .visibility = b->visibility,
 	           .n_slots = frame->prepared.n_light_slots, .transport = transport, .sample = pass->number,
 	           .frame = frame_number(frame), .emission = emitters_of(frame, space), .depth = frame->options->depth,
-	           .most = frame->options->clamp, .background = b->background, .shaded = b->shaded, .n = n,
+	           .most = frame->options->clamp, .background = b->background, .shaded = from->shaded, .n = n,
 	           .radiance = b->radiance, .next_rays = *list->next_rays, .next_paths = *list->next_paths,
 	           .counts = b->next_counts);
 	return frame_in_packets(frame) ? launch_shade_hit_packet(tr->dev, packs(n), a) :
@@ -426,58 +449,78 @@ static int shade_hits(const struct pass *pass, const struct list *list, const st
 }
 
 int secondary_follow(const struct band *band, const struct accel_space *space, const struct accel_space *sky,
-                     uint32_t slots, uint32_t n, int see)
+                     const struct fragment_list *from, uint32_t slots, int see)
 {
 	const struct frame *frame = band->frame;
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
-	const struct list list = path_list(frame);
+	struct light_buffers *b = tr->light;
+	const struct list list = list_of_paths(frame);
 	const uint32_t transport = secondary_transport(frame->options);
-	int err = frame_upload(tr, background, band->background, 4);
+	uint32_t n = from->n;
+	int err = launch_upload(tr->dev, b->background, band->background, 4);
 
 	if (!err)
-		err = frame_reserve(tr, visibility, 3);
+		err = launch_reserve(tr->dev, b->visibility, 3);
 	if (!err)
 		err = gather_list(frame, &list, slots, &n);
 	for (uint32_t i = 0; i < frame->options->depth + MOST_LAYERS && n && !err; i++) {
-		err = frame_reserve(tr, path_hits, n);
+		struct path_list paths;
+
+		err = launch_reserve(tr->dev, b->path_hits, n);
+		paths = path_list(frame, &list, b->path_hits, n);
 		if (!err)
 			err = intersect(frame, i == 0 && see ? HOOK_RAYS_FIRST : HOOK_RAYS_ON,
-			                (struct traverse_rays){ .space = space, .n = n, .rays = *list.rays,
-			                                        .hits = b->path_hits });
+			                (struct traverse_rays){ .space = space, .n = n, .rays = paths.rays,
+			                                        .hits = paths.hits });
 		if (!err && i == 0 && see)
-			err = hooks_see(band, n);
+			err = hooks_see(band, &paths, from->pixels);
 		if (!err)
 			err = look_at_sky(frame, sky, n);
 		if (!err && (frame->prepared.n_light_slots || emitters_of(frame, space).n_emitters))
-			err = trace_hit_shadows(band->pass, space, transport, n);
+			err = trace_hit_shadows(band->pass, space, &paths, from->pixels);
 		if (!err)
-			err = shade_hits(band->pass, &list, space, sky != NULL, transport, n);
+			err = shade_hits(band->pass, &list, space, sky != NULL, from, n);
+		paths = path_list(frame, &list, b->path_hits, n);
 		if (!err && hooks_has(frame, HOOK_ANY_HIT | HOOK_CLOSEST_HIT | HOOK_MISS))
-			err = hooks_hit(frame, space, transport, n);
+			err = hooks_hit(frame, space, transport, &paths, b->visibility, b->radiance);
 		if (!err)
 			err = launch_credit(tr->dev, n,
-			                    LAUNCH(credit, .paths = *list.paths, .radiance = b->radiance,
-			                           .transport = transport, .n = n, .shaded = b->shaded));
+			                    LAUNCH(credit, .paths = paths.paths, .radiance = b->radiance,
+			                           .transport = transport, .n = n, .shaded = from->shaded));
 		if (!err)
 			err = gather_list(frame, &list, PATHS_PER_HIT, &n);
 	}
 	return err;
 }
 
-int secondary_paths(const struct band *band, const struct accel_space *space, const struct accel_space *sky, uint32_t n)
+int secondary_paths(const struct band *band, const struct accel_space *space, const struct accel_space *sky,
+                    const struct fragment_list *from)
 {
 	const struct frame *frame = band->frame;
-	const struct list list = path_list(frame);
-	int err = frame_reserve(frame->tr, visibility, 3);
+	const struct list list = list_of_paths(frame);
+	int err = launch_reserve(frame->tr->dev, frame->tr->light->visibility, 3);
 
 	if (!err)
-		err = ask_emitters(band->pass, space, n);
+		err = ask_emitters(band->pass, space, from);
 	if (!err)
-		err = leave(band->pass, &list, space, secondary_transport(frame->options), n);
-	if (!err && hooks_has(frame, HOOK_ANY_HIT | HOOK_CLOSEST_HIT))
-		err = hooks_ways(frame, secondary_transport(frame->options), n);
-	return err ? err : secondary_follow(band, space, sky, PATHS_PER_FRAGMENT, n, 0);
+		err = leave(band->pass, &list, space, from);
+	if (!err && hooks_has(frame, HOOK_ANY_HIT | HOOK_CLOSEST_HIT)) {
+		const struct path_list paths = path_list(frame, &list, frame->tr->light->path_hits, from->n);
+
+		err = hooks_ways(frame, secondary_transport(frame->options), from, &paths);
+	}
+	return err ? err : secondary_follow(band, space, sky, from, PATHS_PER_FRAGMENT, 0);
+}
+
+int secondary_reserve_paths(const struct frame *frame, uint32_t n, struct path_list *out)
+{
+	const struct list list = list_of_paths(frame);
+	int err = reserve_next(frame, &list, n);
+
+	if (!err)
+		err = launch_reserve(frame->tr->dev, frame->tr->light->next_counts, n);
+	*out = path_list(frame, &list, frame->tr->light->path_hits, n);
+	return err;
 }
 
 /* --- Photons ----------------------------------------------------------------------------------------------------- */
@@ -487,11 +530,13 @@ static int send(const struct frame *frame, const struct list *list, const struct
                 uint32_t n, struct photon *photons)
 {
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
+	struct light_buffers *b = tr->light;
 	int err;
 
-	if ((err = frame_reserve(tr, path_hits, n)) || (err = frame_reserve(tr, photons, n)) ||
-	    (err = frame_reserve(tr, next_counts, n)) || (err = reserve_next(frame, list, (size_t)PATHS_PER_HIT * n)) ||
+	if ((err = launch_reserve(tr->dev, tr->light->path_hits, n)) ||
+	    (err = launch_reserve(tr->dev, tr->light->photons, n)) ||
+	    (err = launch_reserve(tr->dev, tr->light->next_counts, n)) ||
+	    (err = reserve_next(frame, list, (size_t)PATHS_PER_HIT * n)) ||
 	    (err = intersect(frame, HOOK_RAYS_ON,
 	                     (struct traverse_rays){ .space = space, .n = n, .rays = *list->rays,
 	                                             .hits = b->path_hits })) ||
@@ -507,7 +552,7 @@ static int send(const struct frame *frame, const struct list *list, const struct
 int secondary_photons(const struct frame *frame, const struct accel_space *space, uint32_t pass, uint32_t n,
                       void (*take)(void *user, const struct photon *photons, uint32_t n), void *user)
 {
-	const struct list list = path_list(frame);
+	const struct list list = list_of_paths(frame);
 	struct photon *photons = malloc(((size_t)n + 1) * sizeof(*photons));
 	int err = photons ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory for %u photons", n);
 

@@ -10,41 +10,39 @@ const struct accel_space *secondary_space(const struct frame *frame, uint32_t vi
 /** How points are lit, and which rays leave them: TRANSPORT_*. */
 uint32_t secondary_transport(const struct tracer_options *options);
 
-/** Trace rays from all n fragments of the list to all lights, into buffers.visibility[slot][fragment], in red, green
- * and blue. */
-int secondary_shadows(const struct pass *pass, const struct accel_space *space, uint32_t n);
+/** Trace rays from all fragments to all lights. visibility: receives its buffer, [slot][fragment] in red, green and
+ * blue */
+int secondary_shadows(const struct pass *pass, const struct accel_space *space, const struct fragment_list *from,
+                      union buffer_float *visibility);
 
-/** Make room for rays to lights in buffers.rays, and for their results. */
-int secondary_reserve_rays(const struct frame *frame, size_t n_rays, union buffer_float *visibility);
-
-/* Rays, and room for the share of light that passes along each: [3][n], in red, green and blue. */
-struct light_rays {
-	union buffer_ray rays;
-	union buffer_float visibility;
-	uint32_t n, to_lights; /* to_lights: 0 for rays into the surroundings */
-};
+/** Make room for rays to lights, and for their results: in the room's own buffer, or in `visibility` if not NULL. */
+int secondary_reserve_rays(const struct frame *frame, size_t n_rays, union buffer_float *visibility,
+                           struct light_rays *out);
 
 /** Trace rays that exist already. */
 int secondary_ask(const struct frame *frame, const struct accel_space *space, const struct light_rays *rays);
 
-/** Compute how open the surroundings of all n fragments are, which replaces or modulates their colours. */
-int secondary_openness(const struct pass *pass, const struct accel_space *space, uint32_t n);
+/** Compute how open the surroundings of all fragments are, which replaces or modulates their colours. */
+int secondary_openness(const struct pass *pass, const struct accel_space *space, const struct fragment_list *from);
 
-/** Follow the reflected, refracted and scattered rays of all n fragments bounce by bounce, and add their light to the
+/** Follow the reflected, refracted and scattered rays of all fragments bounce by bounce, and add their light to the
  * fragments' parts. */
 int secondary_paths(const struct band *band, const struct accel_space *space, const struct accel_space *sky,
-                    uint32_t n);
+                    const struct fragment_list *from);
+
+/** Make room for the first rays of n paths that start in another way, and for their counts. */
+int secondary_reserve_paths(const struct frame *frame, uint32_t n, struct path_list *out);
 
 /**
- * Follow paths: the next rays of n items, up to `slots` each (buffers.next_path_rays, next_paths and next_counts),
- * bounce by bounce, and add their light to the parts of the fragments that they come from.
+ * Follow paths: the next rays of all fragments, up to `slots` each, bounce by bounce, and add their light to the parts
+ * of the fragments.
  * @param see  1: the first hits are the surfaces that their pixels show (hooks_see)
  */
 int secondary_follow(const struct band *band, const struct accel_space *space, const struct accel_space *sky,
-                     uint32_t slots, uint32_t n, int see);
+                     const struct fragment_list *from, uint32_t slots, int see);
 
 /**
- * Follow n photons, whose rays and paths are in buffers.path_rays and paths (kernels/frame/light/photon.h).
+ * Follow n photons, whose rays and paths are in the room's lists (kernels/frame/light/photon.h).
  * @param pass  seed of random numbers
  * @param take  called with the photons after each step; a photon with number SCENE_NONE hit nothing
  */

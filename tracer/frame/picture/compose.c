@@ -9,6 +9,7 @@
 #include "tracer/frame/light/dome.h"
 #include "tracer/frame/light/secondary.h"
 #include "tracer/frame/picture/added.h"
+#include "tracer/frame/picture/buffers.h"
 
 const char *const compose_groups[] = { "gl", "shadow", "relight", "reflect", "refract", "Z", "N", "P", "albedo", "id",
 	                               "layers", NULL };
@@ -96,17 +97,18 @@ static struct compose_request request_of(const struct band *band)
 	return r;
 }
 
-static int run_compose(const struct band *band, const struct compose_request *r)
+static int run_compose(const struct band *band, const struct compose_planes *to, union buffer_frame_pixel cleared,
+                       union buffer_uint drawn)
 {
 	const struct frame *frame = band->frame;
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
-	const struct compose_launch *a = LAUNCH(compose, .tables = frame_tables(tr), .windows = b->windows,
-	                                        .frame = b->frame, .cleared = b->cleared, .drawn = b->drawn,
-	                                        .sums = b->sums, .first_pixel = frame_first_pixel(band), .request = *r,
-	                                        .n = band->n_pixels, .halves = b->halves, .floats = b->floats);
+	const struct compose_launch *a =
+		LAUNCH(compose, .tables = frame_tables(tr), .windows = tr->placed.windows, .frame = tr->pixels.frame,
+	               .cleared = cleared, .drawn = drawn, .sums = tr->picture->sums,
+	               .first_pixel = frame_first_pixel(band), .request = to->request, .n = band->n_pixels,
+	               .halves = to->halves, .floats = to->floats);
 
-	if (frame_in_packets(frame) && !r->radiant)
+	if (frame_in_packets(frame) && !to->request.radiant)
 		return launch_compose_packet(tr->dev, compose_items(frame->width, band->n_rows), a);
 	return launch_compose(tr->dev, band->n_pixels, a);
 }
@@ -147,8 +149,8 @@ static int describe_image(const struct frame *frame, struct image *img)
 		err = image_set_attribute(img, "relume:device", "%s", device_name(frame->tr->dev));
 	if (!err)
 		err = image_set_attribute(img, "relume:encoding", "%s", frame->options->display ? "display" : "linear");
-	if (!err && frame->scene->keeps_depth && !frame->scene->needs_previous) /* needed by gate R5
-	                                                                           (diff/score/depth.c) */
+	/* needed by gate R5 (diff/score/depth.c) */
+	if (!err && frame->scene->keeps_depth && !frame->scene->needs_previous)
 		err = image_set_attribute(img, "relume:unknown", "depth");
 	if (!err && dome_is_there(frame)) /* needed by gate N (diff/score/harm.c) */
 		err = image_set_attribute(
@@ -174,29 +176,35 @@ int compose_start(const struct frame *frame, struct image *img)
 	return err ? err : describe_image(frame, img);
 }
 
-int compose_reserve(const struct band *band, struct compose_request *request)
+int compose_reserve(const struct band *band, struct compose_planes *out)
 {
+	struct device *dev = band->frame->tr->dev;
+	struct picture_buffers *b = band->frame->tr->picture;
 	int err;
 
-	*request = request_of(band);
-	err = frame_reserve(band->frame->tr, halves, (size_t)request->n_halves * band->n_pixels);
-	return err ? err : frame_reserve(band->frame->tr, floats, (size_t)request->n_floats * band->n_pixels);
+	out->request = request_of(band);
+	err = launch_reserve(dev, b->halves, (size_t)out->request.n_halves * band->n_pixels);
+	if (!err)
+		err = launch_reserve(dev, b->floats, (size_t)out->request.n_floats * band->n_pixels);
+	out->halves = b->halves;
+	out->floats = b->floats;
+	return err;
 }
 
-int compose_fetch(const struct band *band, const struct compose_request *request)
+int compose_fetch(const struct band *band, const struct compose_planes *from)
 {
 	const struct frame *frame = band->frame;
-	const struct frame_buffers *b = &frame->tr->buffers;
+	const struct compose_request *request = &from->request;
 	const void *halves, *floats, *planes[N_CHANNELS];
 	size_t n = 0;
 	int err, unmapped;
 
 	/* the next map waits for both */
-	err = device_map(frame->tr->dev, b->floats.buffer, band->n_pixels * request->n_floats * sizeof(float), 0,
+	err = device_map(frame->tr->dev, from->floats.buffer, band->n_pixels * request->n_floats * sizeof(float), 0,
 	                 &floats);
 	if (err)
 		return err;
-	err = device_map(frame->tr->dev, b->halves.buffer, band->n_pixels * request->n_halves * sizeof(uint16_t), 1,
+	err = device_map(frame->tr->dev, from->halves.buffer, band->n_pixels * request->n_halves * sizeof(uint16_t), 1,
 	                 &halves);
 	if (!err) {
 		for (size_t i = 0; i < N_CHANNELS; i++) {
@@ -210,21 +218,39 @@ int compose_fetch(const struct band *band, const struct compose_request *request
 		}
 		added_take(band, request, halves);
 		err = image_take_rows(band->pass->image, planes, band->n_rows);
-		unmapped = device_unmap(frame->tr->dev, b->halves.buffer, halves);
+		unmapped = device_unmap(frame->tr->dev, from->halves.buffer, halves);
 		err = err ? err : unmapped;
 	}
-	unmapped = device_unmap(frame->tr->dev, b->floats.buffer, floats);
+	unmapped = device_unmap(frame->tr->dev, from->floats.buffer, floats);
 	return err ? err : unmapped;
 }
 
-int compose_band(const struct band *band)
+int compose_band(const struct band *band, union buffer_frame_pixel cleared, union buffer_uint drawn)
 {
-	struct compose_request r;
-	int err = compose_reserve(band, &r);
+	struct tracer *tr = band->frame->tr;
+	struct compose_planes planes;
+	int err = compose_reserve(band, &planes);
 
 	if (!err)
-		err = frame_reserve(band->frame->tr, sums, 1); /* with a single pass, it does not exist yet */
+		err = launch_reserve(tr->dev, tr->picture->sums, 1); /* with a single pass, it does not exist yet */
 	if (!err)
-		err = run_compose(band, &r);
-	return err ? err : compose_fetch(band, &r);
+		err = run_compose(band, &planes, cleared, drawn);
+	return err ? err : compose_fetch(band, &planes);
+}
+
+int compose_reserve_sums(const struct frame *frame)
+{
+	return launch_reserve(frame->tr->dev, frame->tr->picture->sums,
+	                      (size_t)frame->width * frame->height * PASS_PARTS);
+}
+
+int compose_add_pass(const struct band *band)
+{
+	const struct frame *frame = band->frame;
+
+	return launch_add_pass(frame->tr->dev, band->n_pixels,
+	                       LAUNCH(add_pass, .frame = frame->tr->pixels.frame, .turn = band->pass->turn,
+	                              .first = band->pass->is_first, .first_pixel = frame_first_pixel(band),
+	                              .radiant = secondary_transport(frame->options) == TRANSPORT_LINEAR,
+	                              .n = band->n_pixels, .sums = frame->tr->picture->sums));
 }

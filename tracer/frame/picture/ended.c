@@ -32,7 +32,7 @@ int ended_count(const struct frame *frame, struct image *img, uint64_t *ended)
 	programs = malloc(bytes);
 	if (!programs)
 		return err_report(ERR_SYSTEM, NULL, "out of memory for programs");
-	err = device_read(frame->tr->dev, frame->tr->buffers.programs.buffer, 0, programs, bytes);
+	err = device_read(frame->tr->dev, frame->tr->placed.programs.buffer, 0, programs, bytes);
 	for (uint32_t i = 0; i < scene->n_instances && !err; i++)
 		n += (uint64_t)is_ended(programs, scene, i);
 	*ended += n;

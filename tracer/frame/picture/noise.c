@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/err.h"
+#include "tracer/frame/picture/buffers.h"
 
 #define BEAUTY 9u /* index of the beauty among a pixel's parts in the sums */
 
@@ -22,7 +23,7 @@ static float *read_sums(const struct frame *frame, int *err)
 
 	*err = parts && out ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!*err)
-		*err = device_read(frame->tr->dev, frame->tr->buffers.sums.buffer, 0, parts, n * sizeof(*parts));
+		*err = device_read(frame->tr->dev, frame->tr->picture->sums.buffer, 0, parts, n * sizeof(*parts));
 	for (size_t i = 0; i < n && !*err; i++)
 		out[i] = 0.2126f * parts[i][BEAUTY] + 0.7152f * parts[i][BEAUTY + 1] + 0.0722f * parts[i][BEAUTY + 2];
 	free(parts);

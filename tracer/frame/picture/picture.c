@@ -7,6 +7,7 @@
 #include "base/err.h"
 #include "kernels/frame/plain/plain.h"
 #include "kernels/gl/pixel.h"
+#include "tracer/frame/picture/buffers.h"
 
 /* Copy the band's pixels from a picture; NULL: unknown. */
 static void start_pixels(const struct band *band, const struct scene_picture *start, struct frame_pixel *pixels)
@@ -81,9 +82,9 @@ int picture_read_band(const struct band *band, struct scene_picture *picture)
 
 	if (!pixels)
 		return err_report(ERR_SYSTEM, NULL, "out of memory for %u pixels", band->n_pixels);
-	err = read_pixels(band, frame->tr->buffers.frame, pixels, picture);
+	err = read_pixels(band, frame->tr->pixels.frame, pixels, picture);
 	for (uint32_t i = 0; i < SCENE_SAMPLES && picture->samples && frame->scene->samples > 1 && !err; i++)
-		err = read_pixels(band, frame->tr->buffers.samples[i], pixels, &picture->samples[i]);
+		err = read_pixels(band, frame->tr->pixels.samples[i], pixels, &picture->samples[i]);
 	free(pixels);
 	return err;
 }
@@ -94,18 +95,18 @@ static int take_words(const struct band *band, const struct device_buffer *buffe
 	return device_read(band->frame->tr->dev, buffer, 0, out, band->n_pixels * sizeof(uint32_t));
 }
 
-int picture_count_rows(const struct band *band)
+int picture_count_rows(const struct band *band, union buffer_uint unknown)
 {
 	const struct frame *frame = band->frame;
 	const uint32_t n = plain_columns(frame->width) * band->n_rows;
 	const void *mapped;
-	int err = device_map(frame->tr->dev, frame->tr->buffers.unknown.buffer, n * sizeof(uint32_t), 1, &mapped);
+	int err = device_map(frame->tr->dev, unknown.buffer, n * sizeof(uint32_t), 1, &mapped);
 
 	if (err)
 		return err;
 	for (uint32_t i = 0; i < n; i++)
 		band->pass->drawn->unknown += (uint32_t)__builtin_popcount(((const uint32_t *)mapped)[i]);
-	return device_unmap(frame->tr->dev, frame->tr->buffers.unknown.buffer, mapped);
+	return device_unmap(frame->tr->dev, unknown.buffer, mapped);
 }
 
 static int is_unknown(const struct frame_pixel *p)
@@ -118,7 +119,7 @@ int picture_count_band(const struct band *band)
 	const struct frame *frame = band->frame;
 	const struct frame_pixel *pixels;
 	const void *mapped;
-	int err = device_map(frame->tr->dev, frame->tr->buffers.frame.buffer, band->n_pixels * sizeof(*pixels), 1,
+	int err = device_map(frame->tr->dev, frame->tr->pixels.frame.buffer, band->n_pixels * sizeof(*pixels), 1,
 	                     &mapped);
 
 	if (err)
@@ -126,36 +127,57 @@ int picture_count_band(const struct band *band)
 	pixels = mapped;
 	for (uint32_t i = 0; i < band->n_pixels; i++)
 		band->pass->drawn->unknown += (uint32_t)is_unknown(&pixels[i]);
-	return device_unmap(frame->tr->dev, frame->tr->buffers.frame.buffer, mapped);
+	return device_unmap(frame->tr->dev, frame->tr->pixels.frame.buffer, mapped);
 }
 
-int picture_take_band(const struct band *band, union buffer_float kept, uint32_t stencil)
+int picture_take_band(const struct band *band, union buffer_float kept, union buffer_uint unknown, uint32_t stencil)
 {
 	const struct frame *frame = band->frame;
 	struct tracer *tr = frame->tr;
-	const struct frame_buffers *b = &tr->buffers;
+	struct picture_buffers *b = tr->picture;
 	const struct scene *scene = frame->scene;
 	const size_t first = frame_first_pixel(band);
 	const uint32_t rows = plain_columns(frame->width) * band->n_rows;
-	int err = frame_reserve(tr, colors, band->n_pixels);
+	int err = launch_reserve(tr->dev, b->colors, band->n_pixels);
 
 	if (!err)
-		err = frame_reserve(tr, depths, band->n_pixels);
+		err = launch_reserve(tr->dev, b->depths, band->n_pixels);
 	if (!err)
 		err = launch_layered_picture(tr->dev, rows,
 		                             LAUNCH(layered_picture, .kept = kept, .width = frame->width,
 		                                    .height = band->n_rows, .bits = frame->bits, .colors = b->colors,
-		                                    .depths = b->depths, .unknown = b->unknown));
+		                                    .depths = b->depths, .unknown = unknown));
 	if (!err)
 		err = take_words(band, b->colors.buffer, band->pass->picture->rgba + 4 * first);
 	if (!err)
 		err = take_words(band, b->depths.buffer, band->pass->picture->depth + first);
 	if (!err)
-		err = picture_count_rows(band);
+		err = picture_count_rows(band, unknown);
 	if (scene->start)
 		memcpy(band->pass->picture->stencil + first, scene->start->stencil + first, band->n_pixels);
 	else
 		memset(band->pass->picture->stencil + first,
 		       (int)(stencil & pixel_bits_mask(pixel_stencil_bits(frame->bits))), band->n_pixels);
 	return err;
+}
+
+int picture_keep_start(const struct band *band, union buffer_float kept)
+{
+	const struct frame *frame = band->frame;
+	const struct scene_picture *start = frame->scene->start;
+	struct device *dev = frame->tr->dev;
+	struct picture_buffers *b = frame->tr->picture;
+	const size_t first = frame_first_pixel(band);
+	int err = launch_reserve(dev, b->colors, band->n_pixels);
+
+	if (!err)
+		err = device_write(dev, b->colors.buffer, 0, start->rgba + 4 * first,
+		                   band->n_pixels * sizeof(uint32_t));
+	if (!err)
+		err = launch_upload(dev, b->depths, start->depth + first, band->n_pixels);
+	return err ? err :
+	             launch_layered_start(dev, (size_t)plain_columns(frame->width) * band->n_rows,
+	                                  LAUNCH(layered_start, .colors = b->colors, .depths = b->depths,
+	                                         .width = frame->width, .height = band->n_rows, .bits = frame->bits,
+	                                         .kept = kept));
 }

@@ -21,20 +21,20 @@ static int run_vertices(struct frame *frame, uint32_t extra_vertices, uint32_t e
 {
 	struct tracer *tr = frame->tr;
 	struct prepared *p = &frame->prepared;
-	const struct frame_buffers *b = &tr->buffers;
+	const struct placed_buffers *b = &tr->placed;
 	size_t n = (size_t)p->n_vertices + extra_vertices + hook_objects_vertices(frame),
 	       coords = (size_t)p->n_texcoords + extra_texcoords;
 	const struct vertex_launch *a;
-	int err = frame_reserve(tr, vertices, n);
+	int err = launch_reserve(tr->dev, tr->placed.vertices, n);
 
 	frame->objects.vertex_first = p->n_vertices + extra_vertices;
 	frame->objects.texcoord_first = p->n_texcoords + extra_texcoords;
 	if (!err)
-		err = frame_reserve(tr, windows, n);
+		err = launch_reserve(tr->dev, tr->placed.windows, n);
 	if (!err)
-		err = frame_reserve(tr, clips, 4 * n);
+		err = launch_reserve(tr->dev, tr->placed.clips, 4 * n);
 	if (!err)
-		err = frame_reserve(tr, texcoords, 4 * (coords + hook_objects_texcoords(frame)));
+		err = launch_reserve(tr->dev, tr->placed.texcoords, 4 * (coords + hook_objects_texcoords(frame)));
 	if (err)
 		return err;
 	a = LAUNCH(vertex, .tables = frame_tables(tr), .views = b->views, .owners = b->owners, .height = frame->height,
@@ -59,11 +59,11 @@ static int upload_vertex_stage(struct frame *frame)
 	int err = upload_attributes(frame);
 
 	if (!err)
-		err = frame_upload(tr, geometries, p->geometries, p->n_instances);
+		err = launch_upload(tr->dev, tr->placed.geometries, p->geometries, p->n_instances);
 	if (!err)
-		err = frame_upload(tr, views, p->views, p->n_views);
+		err = launch_upload(tr->dev, tr->placed.views, p->views, p->n_views);
 	if (!err)
-		err = frame_upload(tr, owners, p->owner, p->n_vertices);
+		err = launch_upload(tr->dev, tr->placed.owners, p->owner, p->n_vertices);
 	if (!err)
 		err = device_reserve(tr->dev, &tr->indices.buffer, sizeof(uint32_t));
 	return err;
@@ -104,10 +104,10 @@ static int expand_instance(struct frame *frame, uint32_t i, float *dashed)
 	if (!vertices || !texcoords)
 		err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	if (!err && n)
-		err = device_read(frame->tr->dev, frame->tr->buffers.vertices.buffer,
+		err = device_read(frame->tr->dev, frame->tr->placed.vertices.buffer,
 		                  g->vertex_first * sizeof(*vertices), vertices, n * sizeof(*vertices));
 	if (!err && n_coords)
-		err = device_read(frame->tr->dev, frame->tr->buffers.texcoords.buffer,
+		err = device_read(frame->tr->dev, frame->tr->placed.texcoords.buffer,
 		                  g->texcoord_first * sizeof(*texcoords), texcoords, n_coords * sizeof(*texcoords));
 	if (!err)
 		err = expand_primitives(&in, &frame->expanded[i]);
@@ -125,7 +125,7 @@ static int write_clips(struct tracer *tr, uint32_t first, const struct expanded 
 	for (uint32_t v = 0; v < e->n_vertices && !err; v++)
 		memcpy(clips[v], e->vertices[v].clip, sizeof(*clips));
 	if (!err)
-		err = device_write(tr->dev, tr->buffers.clips.buffer, first * sizeof(*clips), clips,
+		err = device_write(tr->dev, tr->placed.clips.buffer, first * sizeof(*clips), clips,
 		                   e->n_vertices * sizeof(*clips));
 	free(clips);
 	return err;
@@ -166,15 +166,15 @@ static int upload_expanded(struct frame *frame)
 		g->texcoord_first = texcoord;
 		if (e->n_vertices == 0)
 			continue;
-		err = device_write(tr->dev, tr->buffers.vertices.buffer, vertex * sizeof(*e->vertices), e->vertices,
+		err = device_write(tr->dev, tr->placed.vertices.buffer, vertex * sizeof(*e->vertices), e->vertices,
 		                   e->n_vertices * sizeof(*e->vertices));
 		if (!err)
-			err = device_write(tr->dev, tr->buffers.windows.buffer, vertex * sizeof(*e->windows),
+			err = device_write(tr->dev, tr->placed.windows.buffer, vertex * sizeof(*e->windows),
 			                   e->windows, e->n_vertices * sizeof(*e->windows));
 		if (!err)
 			err = write_clips(tr, vertex, e);
 		if (!err && e->n_texcoords)
-			err = device_write(tr->dev, tr->buffers.texcoords.buffer, texcoord * sizeof(*e->texcoords),
+			err = device_write(tr->dev, tr->placed.texcoords.buffer, texcoord * sizeof(*e->texcoords),
 			                   e->texcoords, e->n_texcoords * sizeof(*e->texcoords));
 		vertex += e->n_vertices;
 		texcoord += e->n_texcoords;
@@ -253,7 +253,7 @@ static int read_baked(struct frame *frame, float (**out)[4])
 			free(vertices);
 			return err_report(ERR_SYSTEM, NULL, "out of memory");
 		}
-		err = device_read(frame->tr->dev, frame->tr->buffers.vertices.buffer,
+		err = device_read(frame->tr->dev, frame->tr->placed.vertices.buffer,
 		                  g->vertex_first * sizeof(*vertices), vertices, g->vertex_count * sizeof(*vertices));
 		for (uint32_t v = 0; v < g->vertex_count; v++)
 			memcpy((*out)[g->vertex_first + v], vertices[v].eye, sizeof(**out));
@@ -322,11 +322,11 @@ static int build_trees(struct frame *frame)
 		                        p->n_instances, p->views, &frame->spaces, &frame->n_spaces);
 	free(baked);
 	if (!err)
-		err = frame_upload(tr, views, p->views, p->n_views);
+		err = launch_upload(tr->dev, tr->placed.views, p->views, p->n_views);
 	if (!err)
 		err = upload_indices(frame);
 	if (!err)
-		err = frame_upload(tr, geometries, p->geometries, p->n_instances);
+		err = launch_upload(tr->dev, tr->placed.geometries, p->geometries, p->n_instances);
 	if (!err)
 		err = opacity_place(frame);
 	if (!err)
@@ -340,7 +340,8 @@ static int find_perspectives(struct frame *frame)
 	int changed = 0, err = frame->prepared.has_vertex_programs ? perspective_find(frame, &changed) : 0;
 
 	if (!err && changed)
-		err = frame_upload(frame->tr, views, frame->prepared.views, frame->prepared.n_views);
+		err = launch_upload(frame->tr->dev, frame->tr->placed.views, frame->prepared.views,
+		                    frame->prepared.n_views);
 	if (!err && changed)
 		err = run_vertices(frame, 0, 0);
 	return err || !frame->prepared.has_vertex_programs ? err : perspective_check_depths(frame);
@@ -372,8 +373,8 @@ int geometry_move(struct frame *frame)
 {
 	struct tracer *tr = frame->tr;
 	const struct prepared *p = &frame->prepared;
-	const struct frame_buffers *b = &tr->buffers;
-	int err = frame_upload(tr, views, p->views, p->n_views);
+	const struct placed_buffers *b = &tr->placed;
+	int err = launch_upload(tr->dev, tr->placed.views, p->views, p->n_views);
 
 	return err ? err :
 	             launch_window(tr->dev, p->n_vertices,

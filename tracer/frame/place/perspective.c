@@ -116,7 +116,7 @@ static int read_clips(const struct frame *frame, uint32_t i, float (**clip)[4])
 	*clip = calloc((size_t)g->vertex_count + 1, sizeof(**clip));
 	if (!*clip)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	return device_read(frame->tr->dev, frame->tr->buffers.clips.buffer, g->vertex_first * sizeof(**clip), *clip,
+	return device_read(frame->tr->dev, frame->tr->placed.clips.buffer, g->vertex_first * sizeof(**clip), *clip,
 	                   g->vertex_count * sizeof(**clip));
 }
 

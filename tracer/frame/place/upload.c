@@ -121,7 +121,7 @@ static int upload_textures(struct frame *frame)
 	for (uint32_t i = 0; i < scene->n_textures && !err; i++)
 		err = describe_texture(scene->textures[i], items[i].place, &images[i]);
 	if (!err)
-		err = frame_upload(frame->tr, textures, images, scene->n_textures);
+		err = launch_upload(frame->tr->dev, frame->tr->placed.textures, images, scene->n_textures);
 done:
 	free(items);
 	free(images);
@@ -132,18 +132,19 @@ int upload_state(struct frame *frame)
 {
 	const struct scene *s = frame->scene;
 	struct tracer *tr = frame->tr;
-	int err = frame_upload(tr, materials, s->materials, s->n_materials);
+	int err = launch_upload(tr->dev, tr->placed.materials, s->materials, s->n_materials);
 
 	if (!err)
-		err = frame_upload(tr, lights, s->lights, s->n_lights);
+		err = launch_upload(tr->dev, tr->placed.lights, s->lights, s->n_lights);
 	if (!err)
-		err = frame_upload(tr, units, s->units, s->n_units);
+		err = launch_upload(tr->dev, tr->placed.units, s->units, s->n_units);
 	if (!err)
-		err = frame_upload(tr, currents, s->currents, s->n_currents);
+		err = launch_upload(tr->dev, tr->placed.currents, s->currents, s->n_currents);
 	if (!err)
-		err = frame_upload(tr, stipples, (const uint32_t *)s->stipples, 32 * (size_t)s->n_stipples);
+		err = launch_upload(tr->dev, tr->placed.stipples, (const uint32_t *)s->stipples,
+		                    32 * (size_t)s->n_stipples);
 	if (!err)
-		err = frame_upload(tr, programs, s->programs, s->n_programs);
+		err = launch_upload(tr->dev, tr->placed.programs, s->programs, s->n_programs);
 	if (!err)
 		err = upload_textures(frame);
 	return err;
