@@ -405,7 +405,7 @@ typedef float element_float;
 	OUT(uint, pixels) AND() OUT(shaded, shaded) AND() OUT(ray, next_rays) AND() OUT(path, next_paths) AND() \
 	OUT(uint, counts)
 #define ARGUMENTS_hook_see(IN, OUT, VALUE, GROUP, AND) \
-	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(path, paths) AND() IN(uint, pixels) AND() \
+	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() IN(uint, pixels) AND() \
 	VALUE(uint, first_pixel) AND() \
 	VALUE(uint, n) AND() \
 	OUT(frame_pixel, frame)             /* also read */

@@ -40,7 +40,8 @@ def differing(a, b, channels="RGB", most=0.0):
     return sum(any(abs(a.at(c, x, y) - b.at(c, x, y)) > most for c in channels) for x, y in places) / len(places)
 
 
-plain = picture("plain", wanted=("R", "G", "B", "gl.R", "gl.G", "gl.B", "Z", "id"))
+ALBEDO = ("albedo.R", "albedo.G", "albedo.B")
+plain = picture("plain", wanted=("R", "G", "B", "gl.R", "gl.G", "gl.B", "Z", "id", *ALBEDO))
 
 # A hook that returns the built-in's colour.
 repeat = ROOT / "corpus/hooks/repeat.cl"
@@ -99,11 +100,12 @@ check(differing(plain, picture("lit", "--hook", lit)) > 0.3, "lights and albedo 
 
 # Ray generation: the program's own camera rays give the same picture as the built-in camera, except at edges.
 own = hook("own", RAY % "\treturn pixel.ray;")
-traced = picture("traced", "--hook", own, wanted=("R", "G", "B", "Z"))
+traced = picture("traced", "--hook", own, wanted=("R", "G", "B", "Z", *ALBEDO))
 check(
     differing(plain, traced, most=0.02) < 0.04,
     f"the same rays: {differing(plain, traced, most=0.02):.3f} of the pixels differ")
 check(differing(plain, traced, "Z", most=0.02 * abs(plain.at("Z", *middle))) < 0.04, "and their distances")
+check(differing(plain, traced, ALBEDO, most=0.02) < 0.04, "and the surfaces' albedo")
 fisheye = picture("fisheye", "--hook", ROOT / "corpus/hooks/fisheye.cl")
 check(all(fisheye.at(c, 0, 0) == 0 for c in "RGB"), "nothing beyond a fisheye's disk")
 lens = picture("lens", "--hook", ROOT / "corpus/hooks/thin_lens.cl", "--samples", 2)

@@ -177,9 +177,16 @@ static inline void hook_see_item(const struct hook_see_arguments *a, uint32_t it
 {
 	GLOBAL struct frame_pixel *pixel = &a->frame[a->pixels[a->paths[item].target] - a->first_pixel];
 	const struct hit hit = a->hits[item];
+	struct texturing texturing;
+	struct vec4 albedo;
+	struct point p;
 
 	if (hit.instance == SCENE_NONE)
 		return;
+	p = point_from_hit(&a->tables, &hit, v3_load(a->rays[item].d));
+	point_texture(&a->tables, &p, (const struct point_window *)0, &texturing);
+	albedo = point_albedo(&a->tables, &p, &texturing);
+	v3_store(pixel->albedo, v3(albedo.x, albedo.y, albedo.z));
 	pixel->surface.order = 0u;
 	pixel->surface.instance = hit.instance;
 	pixel->surface.primitive = hit.primitive | FRAGMENT_PERSPECTIVE;

@@ -163,7 +163,7 @@ int hooks_see(const struct band *band, const struct path_list *paths, union buff
 	for (uint32_t i = 0; i < band->pass->n_samples && !err; i++)
 		err = launch_hook_see(frame->tr->dev, paths->n,
 		                      LAUNCH(hook_see, .tables = frame_tables(frame->tr), .hits = paths->hits,
-		                             .paths = paths->paths, .pixels = pixels,
+		                             .rays = paths->rays, .paths = paths->paths, .pixels = pixels,
 		                             .first_pixel = frame_first_pixel(band), .n = paths->n,
 		                             .frame = *frame_sample(band->pass, i)));
 	return err;
