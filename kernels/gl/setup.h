@@ -133,7 +133,7 @@ static inline void setup_keep(const struct shade_arguments *a, uint32_t x, uint3
 	kept->p = point_of_triangle(&a->tables, a->windows, f, kept->w_inv);
 	kept->have_lit = kept->have_setup = 0;
 	point_keep_nothing(&kept->sampling);
-	if (needs_depth || kept->p.material->unit_count || kept->p.material->surface.relit)
+	if (needs_depth || kept->p.material->unit_count)
 		kept->have_setup = setup_triangle(&a->views[kept->p.geometry->view], a->windows, &kept->p, x, y,
 		                                  a->height, cut, &kept->setup);
 	if (needs_depth && kept->have_setup) {

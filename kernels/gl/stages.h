@@ -327,16 +327,6 @@ static inline int stage_place_first(const struct shade_arguments *a, uint32_t x,
 	return !clipped && !stage_undrawn(&kept->p, x, a->height - 1u - y) && !stage_stippled_away(&a->tables, &kept->p, x, y);
 }
 
-/* A fragment's colours, as lit at its vertices. */
-static inline struct lit stage_lit(const struct point *p, const struct point_window *w)
-{
-	const float middle = 0.5f - clip_origin(w->view);
-
-	return w->setup && !(p->geometry->flags & GEOMETRY_PIXELS) ?
-	               point_lit_by_planes(p, w->setup, (float)w->x + middle, (float)(w->height - 1u - w->row) + middle) :
-	               point_lit_from_vertices(p);
-}
-
 /*
  * shade: n_slots == 0 computes a fragment's GL colour, its depth and the lights whose visibility it needs; n_slots > 0
  * computes the colour of those fragments with the lights' visibility. transport: TRANSPORT_*. kept: cache for the
@@ -398,7 +388,7 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 		setup_keep_lit(t, seen, keeps, kept);
 		lit = from_vertices = point_lit_between(&p, kept->lit);
 	} else {
-		lit = from_vertices = stage_lit(&p, &window);
+		lit = from_vertices = point_lit_from_vertices(&p);
 	}
 	if (kind == SCENE_COLOR_PIXELS || kind == SCENE_FLOAT_PIXELS)
 		lit.color = stage_texel_color(group, kind);

@@ -303,6 +303,35 @@ WIDE_VECTORS static inline void pack_weights_at(const struct tables *t, const st
 		weight[i] *= sum;
 }
 
+/* Pixel positions for planes: from clip_origin, y from the top; and w there. */
+struct pack_places {
+	packf x, y, w;
+};
+
+WIDE_VECTORS static inline struct pack_places pack_places(const struct pack *p)
+{
+	const float middle = 0.5f - clip_origin(p->view);
+	const struct pack_plane w_inv = pack_plane_through(&p->edges, p->w_inv);
+	struct pack_places at;
+
+	at.x = convert_float16(p->x) + middle;
+	at.y = convert_float16(p->row) + middle;
+	at.w = 1.0f / pack_plane_at(&w_inv, at.x, at.y);
+	return at;
+}
+
+/* program_set_by_planes for numbers n to m. row: values at the corners */
+WIDE_VECTORS static inline void pack_set_by_planes(const struct pack *p, const struct pack_places *at, packf (*row)[4],
+                                                   int n, int m, packf *to)
+{
+	for (int c = n; c <= m; c++) {
+		const packf over_w[3] = { row[0][c] * p->w_inv[0], row[1][c] * p->w_inv[1], row[2][c] * p->w_inv[2] };
+		const struct pack_plane plane = pack_plane_through(&p->edges, over_w);
+
+		to[c - n] = pack_plane_at(&plane, at->x, at->y) * at->w;
+	}
+}
+
 /* program_texcoords for all lanes. */
 WIDE_VECTORS static inline void pack_input_texcoords(const struct shade_arguments *a, const struct pack_list *list,
                                                      const struct pack *p, uint lanes, struct pack_kept *kept,
@@ -317,7 +346,7 @@ WIDE_VECTORS static inline void pack_input_texcoords(const struct shade_argument
 		if (!(inputs >> (SCENE_INPUT_TEXCOORD + unit) & 1))
 			continue;
 		pack_texcoords(a, list, p, lanes, first, i, kept, texcoord);
-		pack_by_planes(p, at, texcoord, 0, 3, &run->registers[4 * (SCENE_INPUT_TEXCOORD + unit)]);
+		pack_set_by_planes(p, at, texcoord, 0, 3, &run->registers[4 * (SCENE_INPUT_TEXCOORD + unit)]);
 	}
 }
 
@@ -387,7 +416,7 @@ WIDE_VECTORS static inline void pack_colors_by_planes(const struct shade_argumen
 			continue;
 		}
 		pack_cut_rows(a, list, p, lanes, kept, row);
-		pack_by_planes(p, at, row, input == SCENE_INPUT_FOG ? 3 : 0, 3, to);
+		pack_set_by_planes(p, at, row, input == SCENE_INPUT_FOG ? 3 : 0, 3, to);
 	}
 	run->registers[4 * SCENE_INPUT_FOG + 3] = 1.0f;
 }

@@ -185,74 +185,6 @@ WIDE_VECTORS static inline void pack_cut_rows(const struct shade_arguments *a, c
 	}
 }
 
-/* Pixel positions for planes: from clip_origin, y from the top; and w there. */
-struct pack_places {
-	packf x, y, w;
-};
-
-WIDE_VECTORS static inline struct pack_places pack_places(const struct pack *p)
-{
-	const float middle = 0.5f - clip_origin(p->view);
-	const struct pack_plane w_inv = pack_plane_through(&p->edges, p->w_inv);
-	struct pack_places at;
-
-	at.x = convert_float16(p->x) + middle;
-	at.y = convert_float16(p->row) + middle;
-	at.w = 1.0f / pack_plane_at(&w_inv, at.x, at.y);
-	return at;
-}
-
-/* Numbers n to m of rows, interpolated by planes. row: values at the corners */
-WIDE_VECTORS static inline void pack_by_planes(const struct pack *p, const struct pack_places *at, packf (*row)[4],
-                                                   int n, int m, packf *to)
-{
-	for (int c = n; c <= m; c++) {
-		const packf over_w[3] = { row[0][c] * p->w_inv[0], row[1][c] * p->w_inv[1], row[2][c] * p->w_inv[2] };
-		const struct pack_plane plane = pack_plane_through(&p->edges, over_w);
-
-		to[c - n] = pack_plane_at(&plane, at->x, at->y) * at->w;
-	}
-}
-
-/* A bit for each lane whose primary or secondary colour llvmpipe interpolates. color: SCENE_HAS_COLOR .. */
-static inline packi pack_interpolated(const struct pack *p, uint color)
-{
-	if (p->material->shade_model == GL_FLAT || p->material->lighting || p->material->vertex_program)
-		return point_interpolated(p->material, 0) & color ? -1 : 0;
-	return (p->attributes & color * GEOMETRY_GIVEN) != 0;
-}
-
-/* The same colour by planes where it is interpolated. four: PACK_COLOR or PACK_SECONDARY */
-WIDE_VECTORS static inline struct vec4_16 pack_color_by_planes(const struct shade_arguments *a,
-                                                               const struct pack_list *list, const struct pack *p,
-                                                               uint lanes, struct pack_kept *kept, uint four)
-{
-	const packi by_planes = pack_interpolated(p, four == PACK_COLOR ? SCENE_HAS_COLOR : SCENE_HAS_SECONDARY);
-	struct vec4_16 color;
-	packf row[3][4], at_pixel[4];
-	struct pack_places at;
-
-	if (!any_pack(by_planes))
-		return pack_between(&a->tables, p, four);
-	at = pack_places(p);
-	for (int k = 0; k < 3; k++)
-		pack_vertex(&a->tables, p, k, four + as_uint16(pack_side(p) & 1), row[k]);
-	pack_cut_rows(a, list, p, lanes, kept, row);
-	pack_by_planes(p, &at, row, 0, 3, at_pixel);
-	color = v4_16(at_pixel[0], at_pixel[1], at_pixel[2], at_pixel[3]);
-	return any_pack(~by_planes) ? v4_choose(by_planes, color, pack_between(&a->tables, p, four)) : color;
-}
-
-/* point_lit_by_planes for all lanes; secondary colours only if they are used. */
-WIDE_VECTORS static inline void pack_lit_by_planes(const struct shade_arguments *a, const struct pack_list *list,
-                                                   const struct pack *p, uint lanes, struct pack_kept *kept,
-                                                   struct vec4_16 *color, struct vec4_16 *secondary)
-{
-	*color = *secondary = pack_color_by_planes(a, list, p, lanes, kept, PACK_COLOR);
-	if (p->material->color_sum || (p->material->lighting && p->material->separate_specular))
-		*secondary = pack_color_by_planes(a, list, p, lanes, kept, PACK_SECONDARY);
-}
-
 /* Texture coordinates of the material's unit i at the corners. first: pack_texcoord_first; texcoord: [3][4] */
 WIDE_VECTORS static inline void pack_texcoords(const struct shade_arguments *a, const struct pack_list *list,
                                                const struct pack *p, uint lanes, packu first, uint i,
@@ -480,7 +412,7 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	if (a->n_slots && !m->surface.relit) {
 		pack_between_relit(a, list, p, lanes, kept, &from_vertices, &secondary);
 	} else {
-		pack_lit_by_planes(a, list, p, lanes, kept, &from_vertices, &secondary);
+		pack_lit_from_vertices(t, p, &from_vertices, &secondary);
 	}
 	color = pack_finish(t, p, &texturing, &from_vertices, &secondary);
 	color = v4_16(pixel_nudge(color.x), pixel_nudge(color.y), pixel_nudge(color.z), color.w);

@@ -153,7 +153,7 @@ static inline void plain_shade(const struct plain_arguments *a, const struct sha
 	struct vec4_16 lit, secondary;
 
 	pack_texture(s, &row->list, p, lanes, kept, &texturing);
-	pack_lit_by_planes(s, &row->list, p, lanes, kept, &lit, &secondary);
+	pack_lit_from_vertices(t, p, &lit, &secondary);
 	if (p->material->fragment_program) {
 		plain_take_color(a->shaded[row->base].gl, 4, lanes, &out->gl);
 	} else {
