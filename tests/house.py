@@ -225,7 +225,8 @@ def counts(house):
     loops = [f for f in files for _ in re.findall(r"\bgetopt_long\(", re.sub(r"/\*.*?\*/", "", text[f], flags=re.S))]
     tracked = subprocess.run(["git", "-C", root, "ls-files", ":!tests"], capture_output=True, text=True,
                              check=True).stdout.split("\n")
-    lines = sum((root / f).read_bytes().count(b"\n") for f in tracked if f and (root / f).is_file())
+    texts = ((root / f).read_bytes() for f in tracked if f and (root / f).is_file())
+    lines = sum(text.count(b"\n") for text in texts if b"\0" not in text)  # pictures have no lines
     same = repeated(root, files)
     return [("circles between files", len(house.file_circles), 0, "; ".join(" ".join(c) for c in house.file_circles)),
             ("circles between folders", len(house.folder_circles), 0, "; ".join(" ".join(c)

@@ -77,6 +77,7 @@ KERNEL_OF(float8) void intersect_wide(KERNEL_ARGUMENTS(intersect_wide))
 
 	if (i >= n_rays)
 		return;
-	knowing.passing &= !signbit(rays[i].t_min);
+	if (as_uint(rays[i].t_min) >> 31)
+		knowing.passing = 0;
 	hits[i] = walk_ray(&rays[i], 0, knowing, top + top_first, instance_list, instances, nodes, triangles).hit;
 }
