@@ -81,22 +81,16 @@ typedef float element_float;
 	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
 	VALUE(uint, to_lights) AND()        /* 1: rays to lights, which pass through some sides: INSTANCE_PASS_* */ \
 	OUT(uint, occluded)                 /* 1 if anything stops the ray, else 0 */
-/* For kernels that know what surfaces let pass: kernels/rays/opacity.h. */
-#define ARGUMENTS_OCCLUDE_KNOWN(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
-	IN(uint, opacity) AND()             /* words of the instances that have some */ \
-	ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) /* occluded 2: surfaces have to be sampled */
 #define ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
 	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) OUT(hit, hits)
 #define ARGUMENTS_occlude_wide(IN, OUT, VALUE, GROUP, AND) \
-	ARGUMENTS_OCCLUDE_KNOWN(IN, OUT, VALUE, GROUP, AND, node8, node8, triangle8)
+	IN(uint, opacity) AND()             /* words of the instances that have some: kernels/rays/opacity.h */ \
+	ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, node8, node8, triangle8)
 #define ARGUMENTS_occlude_binary(IN, OUT, VALUE, GROUP, AND) \
 	ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, node2, node2, triangle)
 #define ARGUMENTS_occlude_compressed(IN, OUT, VALUE, GROUP, AND) \
 	ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, node2, node8c, triangle)
 #define ARGUMENTS_intersect_wide(IN, OUT, VALUE, GROUP, AND) \
-	IN(uint, opacity) AND()             /* as above */ \
-	VALUE(uint, passing) AND()          /* 1: rays ignore surfaces that let all light pass; 0: they meet all */ \
-	VALUE(uint, to_lights) AND()        /* if passing: as for occlude */ \
 	ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, node8, node8, triangle8)
 #define ARGUMENTS_intersect_binary(IN, OUT, VALUE, GROUP, AND) \
 	ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, node2, node2, triangle)
@@ -280,9 +274,9 @@ typedef float element_float;
 #define ARGUMENTS_shadow_sum(IN, OUT, VALUE, GROUP, AND) \
 	IN(ray, rays) AND() VALUE(float, weight) AND() \
 	VALUE(uint, first) AND()            /* 1: visibility is not initialised yet */ \
-	VALUE(uint, through) AND()          /* 1: surfaces that stop a ray may let light through */ \
+	VALUE(uint, through) AND()          /* 1: some surface lets light through */ \
 	VALUE(uint, n) AND() \
-	OUT(uint, occluded) AND()           /* also read; 1 if the ray continues, else 0 */ \
+	OUT(uint, occluded) AND()           /* also read; rays with light left continue */ \
 	OUT(float, visibility)              /* [3] per ray; also read */
 #define ARGUMENTS_shadow_start(IN, OUT, VALUE, GROUP, AND) \
 	IN(uint, occluded) AND() \

@@ -20,9 +20,6 @@
  * Any hit and nearest hit follow one rule: a triangle is tested if the ray itself meets the box of its leaf, regardless
  * of the rays beside it, and both queries test boxes in the same way.
  *
- * A ray starts at |t_min|. A negative t_min, also -0, is a mark: where rays ignore surfaces that let all light pass
- * (intersect_wide, passing), this one meets them.
- *
  * Rays to lights (occlude, to_lights) ignore the triangles of an instance that they see from a given side:
  * INSTANCE_PASS_*.
  *

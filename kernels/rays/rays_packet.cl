@@ -17,21 +17,12 @@
  */
 #define PACKET_FEW 2
 
-/* The hits of a packet's rays, at their t_max: the nearest so far. Any-hit queries only store which lanes hit surfaces
- * that have to be sampled; a ray that is stopped gets t_max -infinity. */
+/* The hits of a packet's rays, at their t_max: the nearest so far. Not stored for any-hit queries, where a ray that
+ * hits gets t_max -infinity. */
 struct found {
 	packf b1, b2;
 	packu instance, primitive;
-	uint asking, marked; /* a bit for each lane; marked: meets surfaces that the others ignore (kernels/rays/rays.h) */
 };
-
-/* The same instance for marked rays, which meet every surface. */
-static inline struct stops stops_unknown(struct stops s)
-{
-	s.opacity = OPACITY_STOPS;
-	s.passes = 0;
-	return s;
-}
 
 /* Extract one ray of a packet, as in kernels/rays/walk.h. */
 static inline void take_lane(const struct packet *p, uint lane, struct walk *w)
@@ -48,9 +39,9 @@ static inline void take_lane(const struct packet *p, uint lane, struct walk *w)
 
 /*
  * Walk lanes of a packet through a subtree one by one. @return the finished lanes: those of any-hit queries that have a
- * hit that stops them
+ * hit
  */
-INLINED uint walk_lanes(struct packet *p, struct found *found, int any, struct stops stops, uint lanes, uint2 start,
+INLINED uint walk_lanes(struct packet *p, struct found *found, int any, struct ignored ignored, uint lanes, uint2 start,
                         __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	uint done = 0;
@@ -61,13 +52,9 @@ INLINED uint walk_lanes(struct packet *p, struct found *found, int any, struct s
 
 		lanes &= lanes - 1;
 		take_lane(p, lane, &w);
-		w.asks = 0;
 		w.hit.instance = SCENE_NONE;
 		w.hit.primitive = any ? SCENE_NONE : ((const uint *)&found->primitive)[lane];
-		walk_subtree(&w, start, 0, any, !any && found->marked >> lane & 1 ? stops_unknown(stops) : stops, nodes,
-		             triangles);
-		if (any && w.asks)
-			found->asking |= 1u << lane;
+		walk_subtree(&w, start, 0, any, ignored, nodes, triangles);
 		if (w.hit.instance == SCENE_NONE)
 			continue;
 		((float *)&p->t_max)[lane] = any ? -INFINITY : w.hit.t;
@@ -177,7 +164,7 @@ static inline void mean_direction(const struct packet *p, float towards[3])
 
 /* Packets with only a few rays left in a subtree walk them through it one by one. @return lanes without these; finished
  * ones are no longer awake */
-INLINED ulong walk_few(struct packet *p, struct found *found, int any, struct stops stops, uint2 start, ulong lanes,
+INLINED ulong walk_few(struct packet *p, struct found *found, int any, struct ignored ignored, uint2 start, ulong lanes,
                        ulong *awake, __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	for (uint k = 0; k < RAYS_PACKETS; k++) {
@@ -185,95 +172,58 @@ INLINED ulong walk_few(struct packet *p, struct found *found, int any, struct st
 
 		if (few == 0 || popcount(few) > PACKET_FEW)
 			continue;
-		*awake &= ~lanes_at(walk_lanes(&p[k], &found[k], any, stops, few, start, nodes, triangles), k);
+		*awake &= ~lanes_at(walk_lanes(&p[k], &found[k], any, ignored, few, start, nodes, triangles), k);
 		lanes &= ~lanes_at(few, k);
 	}
 	return lanes;
 }
 
-/* The lanes of an any-hit query, out of those that hit a primitive, that it stops. found: receives those that have to
- * sample it */
-static inline packi stopped_lanes(struct found *found, struct stops stops, uint word, packi hit, const packf *b1,
-                                  const packf *b2)
-{
-	uint stopped = 0, lanes = pack_bits(hit);
-
-	if ((word & 3) == OPACITY_ASK)
-		found->asking |= lanes;
-	if ((word & 3) != OPACITY_MAP)
-		return (word & 3) == OPACITY_STOPS ? hit : (packi)(0);
-	for (; lanes; lanes &= lanes - 1) {
-		const uint lane = popcount((lanes & -lanes) - 1), bit = lanes & -lanes;
-		const uint does =
-			opacity_at(stops.words, stops.opacity, word, ((const float *)b1)[lane], ((const float *)b2)[lane]);
-
-		stopped |= does == OPACITY_STOPS ? bit : 0;
-		found->asking |= does == OPACITY_ASK ? bit : 0;
-	}
-	return lanes_pack(stopped);
-}
-
-/* The lanes, out of those that hit a primitive, that a cell of its map lets pass. */
-static inline packi passed_lanes(struct stops stops, uint word, packi hit, const packf *b1, const packf *b2)
+/* The lanes, out of those that hit a primitive, for whom its map lets all light pass there. */
+static inline packi passed_lanes(struct ignored i, uint word, packi hit, const packf *b1, const packf *b2)
 {
 	uint passed = 0;
 
 	for (uint lanes = pack_bits(hit); lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 
-		if (opacity_at(stops.words, stops.opacity, word, ((const float *)b1)[lane], ((const float *)b2)[lane]) ==
-		    OPACITY_PASSES)
+		if (opacity_passes(i.words, i.opacity, word, ((const float *)b1)[lane], ((const float *)b2)[lane]))
 			passed |= lanes & -lanes;
 	}
 	return lanes_pack(passed);
 }
 
-WIDE_VECTORS INLINED void try_block_packet(struct packet *p, struct found *found, int any, struct stops stops,
-                                           __global const struct triangle8 *block, uint lanes)
-{
-	for (uint lane = 0; lane < 8 && block->primitive[lane] != SCENE_NONE; lane++) {
-		const packu primitive = block->primitive[lane];
-		const uint word = opacity_word(stops.words, stops.opacity, block->primitive[lane]);
-		const uint passes = stops.passes | opacity_sides(word, stops.to_lights);
-		packf t, b1, b2;
-		packi hit;
-
-		if ((word & 3) == OPACITY_PASSES || passes == (INSTANCE_PASS_COUNTER | INSTANCE_PASS_CLOCKWISE))
-			continue;
-		hit = packet_triangle(p, lanes, passes, block, lane, &t, &b1, &b2);
-		if (any) {
-			if (word)
-				hit = stopped_lanes(found, stops, word, hit, &b1, &b2);
-			p->t_max = select(p->t_max, (packf)(-INFINITY), hit);
-			continue;
-		}
-		hit &= (t < p->t_max) | (primitive < found->primitive);
-		if (!any_pack(hit))
-			continue;
-		if ((word & 3) == OPACITY_MAP)
-			hit &= ~passed_lanes(stops, word, hit, &b1, &b2);
-		p->t_max = select(p->t_max, t, hit);
-		found->b1 = select(found->b1, b1, hit), found->b2 = select(found->b2, b2, hit);
-		found->primitive = select(found->primitive, primitive, hit);
-	}
-}
-
-/* Test n blocks. In nearest-hit queries, marked lanes are tested apart from the others. */
-WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int any, struct stops stops,
+WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int any, struct ignored ignored,
                                      __global const struct triangle8 *blocks, uint n, ulong lanes)
 {
-	for (uint part = 0; part < (any ? 1 : 2); part++)
-		for (uint k = 0; k < RAYS_PACKETS; k++) {
-			const uint marked = any ? 0 : found[k].marked;
-			const uint tested = lanes_of(lanes, k) & (part ? marked : ~marked);
+	for (uint k = 0; k < RAYS_PACKETS; k++)
+		for (uint i = 0; i < n && lanes_of(lanes, k); i++)
+			for (uint lane = 0; lane < 8 && blocks[i].primitive[lane] != SCENE_NONE; lane++) {
+				const packu primitive = blocks[i].primitive[lane];
+				const uint word = any ? opacity_word(ignored.words, ignored.opacity, blocks[i].primitive[lane]) : 0;
+				const uint passes = ignored.passes | opacity_sides(word, ignored.to_lights);
+				packf t, b1, b2;
+				packi hit;
 
-			for (uint i = 0; i < n && tested; i++)
-				try_block_packet(&p[k], &found[k], any, part ? stops_unknown(stops) : stops, &blocks[i], tested);
-		}
+				if ((word & 3) == OPACITY_PASSES || passes == (INSTANCE_PASS_COUNTER | INSTANCE_PASS_CLOCKWISE))
+					continue;
+				hit = packet_triangle(&p[k], lanes_of(lanes, k), passes, &blocks[i], lane, &t, &b1, &b2);
+				if (any) {
+					if ((word & 3) == OPACITY_MAP)
+						hit &= ~passed_lanes(ignored, word, hit, &b1, &b2);
+					p[k].t_max = select(p[k].t_max, (packf)(-INFINITY), hit);
+					continue;
+				}
+				hit &= (t < p[k].t_max) | (primitive < found[k].primitive);
+				if (!any_pack(hit))
+					continue;
+				p[k].t_max = select(p[k].t_max, t, hit);
+				found[k].b1 = select(found[k].b1, b1, hit), found[k].b2 = select(found[k].b2, b2, hit);
+				found[k].primitive = select(found[k].primitive, primitive, hit);
+			}
 }
 
 /* Walk one instance's tree with packets, of one octant or of several (-1). */
-INLINED void walk_blas(struct packet *p, struct found *found, int any, struct stops stops, int octant,
+INLINED void walk_blas(struct packet *p, struct found *found, int any, struct ignored ignored, int octant,
                        __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	const struct planes planes = octant_planes(octant);
@@ -289,14 +239,14 @@ INLINED void walk_blas(struct packet *p, struct found *found, int any, struct st
 	if (!any)
 		mean_direction(p, towards);
 	for (;;) {
-		lanes = walk_few(p, found, any, stops, at, lanes, &awake, nodes, triangles);
+		lanes = walk_few(p, found, any, ignored, at, lanes, &awake, nodes, triangles);
 		if (lanes && at.y == 0)
 			depth = push_children(stack, depth, p, any, octant, planes,
 			                      octant < 0 ? existing_boxes(&nodes[at.x]) : beam_meets(&beam, &nodes[at.x], planes), nodes,
 			                      at.x,
 			                      lanes, towards);
 		else if (lanes)
-			try_blocks(p, found, any, stops, &triangles[at.x], at.y, lanes);
+			try_blocks(p, found, any, ignored, &triangles[at.x], at.y, lanes);
 		if (any && lanes && at.y)
 			awake = awake_lanes(p);
 		do {
@@ -338,9 +288,10 @@ static inline void leave_instance(struct packet *eye, struct found *eye_found, c
 }
 
 /* Walk one instance's tree with the lanes of `meets`. */
-INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any, struct knowing knowing, ulong meets,
-                           uint index, __global const struct instance *instances,
-                           __global const struct node8 *all_nodes, __global const struct triangle8 *all_triangles)
+INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any, uint to_lights,
+                           __global const uint *opacity, ulong meets, uint index,
+                           __global const struct instance *instances, __global const struct node8 *all_nodes,
+                           __global const struct triangle8 *all_triangles)
 {
 	__global const struct instance *instance = &instances[index];
 	__global const struct node8 *nodes = all_nodes + instance->node8_first;
@@ -348,13 +299,10 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any,
 	struct found found[RAYS_PACKETS];
 	struct packet p[RAYS_PACKETS];
 	packf shift[RAYS_PACKETS];
-	const struct stops stops = stops_of(instance, knowing);
-	ulong met = stops.opacity == OPACITY_PASSES ? 0 : meets; /* marked rays meet all */
+	const struct ignored ignored = ignored_of(instance, any, to_lights, opacity);
 	int octant;
 
-	for (uint k = 0; k < RAYS_PACKETS && !any; k++)
-		met |= meets & lanes_at(eye_found[k].marked, k);
-	if (!met)
+	if (ignored.opacity == OPACITY_PASSES)
 		return;
 	for (uint k = 0; k < RAYS_PACKETS; k++) {
 		const int met = lanes_of(meets, k) != 0;
@@ -367,32 +315,28 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any,
 		p[k].t_min = met ? eye[k].t_min - shift[k] : 1;
 		p[k].t_max = met ? eye[k].t_max - shift[k] : -INFINITY;
 		p[k].t_min = select((packf)(NAN), p[k].t_min, packet_in_range(&p[k])); /* asleep; not in the beam */
-		found[k].asking = 0;
 		if (any)
 			continue;
-		found[k].marked = eye_found[k].marked;
 		found[k].primitive = SCENE_NONE;
 		/* t + shift decides */
 		p[k].t_max += select((packf)(0), 3e-7f * eye[k].t_max, (shift[k] > 0) & (eye_found[k].instance != SCENE_NONE));
 	}
 	octant = packet_octant(p, RAYS_PACKETS);
 	if (octant < 0)
-		walk_blas(p, found, any, stops, -1, nodes, triangles);
+		walk_blas(p, found, any, ignored, -1, nodes, triangles);
 	else
-		walk_blas(p, found, any, stops, octant, nodes, triangles);
+		walk_blas(p, found, any, ignored, octant, nodes, triangles);
 	for (uint k = 0; k < RAYS_PACKETS; k++)
-		if (!any) {
+		if (!any)
 			leave_instance(&eye[k], &eye_found[k], &p[k], &found[k], shift[k], index);
-		} else if (lanes_of(meets, k)) {
+		else if (lanes_of(meets, k))
 			eye[k].t_max = select(eye[k].t_max, (packf)(-INFINITY), p[k].t_max == -INFINITY);
-			eye_found[k].asking |= found[k].asking;
-		}
 }
 
-INLINED void walk_top(struct packet *eye, struct found *found, int any, struct knowing knowing,
-                      __global const struct node8 *top, __global const uint *instance_list,
-                      __global const struct instance *instances, __global const struct node8 *nodes,
-                      __global const struct triangle8 *triangles)
+INLINED void walk_top(struct packet *eye, struct found *found, int any, uint to_lights,
+                      __global const uint *opacity, __global const struct node8 *top,
+                      __global const uint *instance_list, __global const struct instance *instances,
+                      __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	const struct planes planes = octant_planes(0);
 	struct task stack[RAYS_WIDE_STACK];
@@ -412,7 +356,8 @@ INLINED void walk_top(struct packet *eye, struct found *found, int any, struct k
 			depth = push_children(stack, depth, eye, any, -1, planes, existing_boxes(&top[task.child.x]),
 			                      top, task.child.x, lanes, towards);
 		for (uint i = 0; i < task.child.y && lanes; i++)
-			walk_instance(eye, found, any, knowing, lanes, instance_list[task.child.x + i], instances, nodes, triangles);
+			walk_instance(eye, found, any, to_lights, opacity, lanes, instance_list[task.child.x + i], instances,
+			              nodes, triangles);
 		if (any)
 			awake = awake_lanes(eye);
 	}
@@ -451,7 +396,6 @@ static inline uint load_rays(struct packet *p, __global const struct ray *rays, 
 	     (float16)(two[2].lo.hi, two[2].hi.hi, two[3].lo.hi, two[3].hi.hi),
 	     (float16)(two[4].lo.hi, two[4].hi.hi, two[5].lo.hi, two[5].hi.hi),
 	     (float16)(two[6].lo.hi, two[6].hi.hi, two[7].lo.hi, two[7].hi.hi), &dx, &dy, &dz, &t_max);
-	t_min = fabs(t_min);
 	finite = isfinite(ox) & isfinite(oy) & isfinite(oz) & isfinite(dx) & isfinite(dy) & isfinite(dz) & (t_min <= t_max);
 	p->ox = select((packf)(0), ox, finite), p->oy = select((packf)(0), oy, finite), p->oz = select((packf)(0), oz, finite);
 	p->dx = select((packf)(1), dx, finite), p->dy = select((packf)(1), dy, finite), p->dz = select((packf)(1), dz, finite);
@@ -477,30 +421,23 @@ KERNEL_OF(float16) void occlude_packet(KERNEL_ARGUMENTS(occlude_wide))
 {
 	const uint first = (uint)get_global_id(0) * RAYS_PER_ITEM;
 	struct packet p[RAYS_PACKETS];
-	const struct knowing knowing = { opacity, 1, to_lights };
-	struct found found[RAYS_PACKETS];
-	ulong lanes, asking = 0;
+	struct found nothing[RAYS_PACKETS];
+	ulong lanes;
 
 	if (first >= n_rays)
 		return;
 	lanes = load_packets(p, rays, first, n_rays);
-	for (uint k = 0; k < RAYS_PACKETS; k++)
-		found[k].asking = 0;
 	if (lanes)
-		walk_top(p, found, 1, knowing, top + top_first, instance_list, instances, nodes, triangles);
-	for (uint k = 0; k < RAYS_PACKETS; k++) {
+		walk_top(p, nothing, 1, to_lights, opacity, top + top_first, instance_list, instances, nodes, triangles);
+	for (uint k = 0; k < RAYS_PACKETS; k++)
 		lanes &= ~lanes_at(pack_bits(p[k].t_max != -INFINITY), k);
-		asking |= lanes_at(found[k].asking, k);
-	}
-	asking &= ~lanes;
 	for (uint i = 0; i < RAYS_PER_ITEM && first + i < n_rays; i++)
-		occluded[first + i] = ((uint)(lanes >> i) & 1u) | ((uint)(asking >> i) & 1u) << 1;
+		occluded[first + i] = (uint)(lanes >> i) & 1u;
 }
 
 KERNEL_OF(float16) void intersect_packet(KERNEL_ARGUMENTS(intersect_wide))
 {
 	const uint first = (uint)get_global_id(0) * RAYS_PER_ITEM;
-	const struct knowing knowing = { opacity, passing, to_lights };
 	struct packet p[RAYS_PACKETS];
 	struct found found[RAYS_PACKETS];
 
@@ -510,11 +447,8 @@ KERNEL_OF(float16) void intersect_packet(KERNEL_ARGUMENTS(intersect_wide))
 	for (uint k = 0; k < RAYS_PACKETS; k++) {
 		found[k].b1 = found[k].b2 = 0;
 		found[k].instance = found[k].primitive = SCENE_NONE;
-		found[k].marked = 0;
 	}
-	for (uint i = 0; i < RAYS_PER_ITEM && first + i < n_rays && passing; i++)
-		found[i / RAYS_PER_PACKET].marked |= (as_uint(rays[first + i].t_min) >> 31) << i % RAYS_PER_PACKET;
-	walk_top(p, found, 0, knowing, top + top_first, instance_list, instances, nodes, triangles);
+	walk_top(p, found, 0, 0, 0, top + top_first, instance_list, instances, nodes, triangles);
 	for (uint i = 0; i < RAYS_PER_ITEM && first + i < n_rays; i++) {
 		const struct found *f = &found[i / RAYS_PER_PACKET];
 		const uint lane = i % RAYS_PER_PACKET;

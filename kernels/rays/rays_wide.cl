@@ -6,34 +6,33 @@
 #include "kernels/rays/rays.h"
 #include "kernels/rays/wide.h"
 
-static inline void walk_instance(struct walk *eye, uint index, int any, struct knowing knowing,
+static inline void walk_instance(struct walk *eye, uint index, int any, uint to_lights, __global const uint *opacity,
                                  __global const struct instance *instances, __global const struct node8 *nodes,
                                  __global const struct triangle8 *triangles)
 {
 	__global const struct instance *instance = &instances[index];
-	const struct stops stops = stops_of(instance, knowing);
 	struct walk w;
 	float shift;
 
-	if (stops.opacity == OPACITY_PASSES)
+	if (any && instance->opacity == OPACITY_PASSES)
 		return;
 	shift = walk_enter(&w, eye, instance);
-	walk_subtree(&w, (uint2)(0, 0), index, any, stops, nodes + instance->node8_first,
-	             triangles + instance->triangle8_first);
+	walk_subtree(&w, (uint2)(0, 0), index, any, ignored_of(instance, any, to_lights, opacity),
+	             nodes + instance->node8_first, triangles + instance->triangle8_first);
 	walk_leave(eye, &w, shift);
 }
 
-static inline struct walk walk_ray(__global const struct ray *ray, int any, struct knowing knowing,
-                                   __global const struct node8 *top, __global const uint *instance_list,
-                                   __global const struct instance *instances,
-                                   __global const struct node8 *nodes, __global const struct triangle8 *triangles)
+static inline struct hit walk_ray(__global const struct ray *ray, int any, uint to_lights,
+                                  __global const uint *opacity, __global const struct node8 *top,
+                                  __global const uint *instance_list, __global const struct instance *instances,
+                                  __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	struct entry stack[RAYS_WIDE_STACK];
 	uint depth = 0;
 	struct walk w;
 
 	if (!walk_start(&w, ray))
-		return w;
+		return w.hit;
 	stack[depth].enter = w.t_min;
 	stack[depth].child = stack[depth].count = 0;
 	depth++;
@@ -50,34 +49,28 @@ static inline struct walk walk_ray(__global const struct ray *ray, int any, stru
 			continue;
 		}
 		for (uint i = 0; i < entry.count; i++) {
-			walk_instance(&w, instance_list[entry.child + i], any, knowing, instances, nodes, triangles);
+			walk_instance(&w, instance_list[entry.child + i], any, to_lights, opacity, instances, nodes, triangles);
 			if (any && w.hit.instance != SCENE_NONE)
-				return w;
+				return w.hit;
 		}
 	}
-	return w;
+	return w.hit;
 }
 
 KERNEL_OF(float8) void occlude_wide(KERNEL_ARGUMENTS(occlude_wide))
 {
-	const struct knowing knowing = { opacity, 1, to_lights };
 	const uint i = (uint)get_global_id(0);
-	struct walk w;
 
-	if (i >= n_rays)
-		return;
-	w = walk_ray(&rays[i], 1, knowing, top + top_first, instance_list, instances, nodes, triangles);
-	occluded[i] = w.hit.instance != SCENE_NONE ? 1 : w.asks * 2;
+	if (i < n_rays)
+		occluded[i] = walk_ray(&rays[i], 1, to_lights, opacity, top + top_first, instance_list, instances, nodes,
+		                       triangles)
+		                      .instance != SCENE_NONE;
 }
 
 KERNEL_OF(float8) void intersect_wide(KERNEL_ARGUMENTS(intersect_wide))
 {
 	const uint i = (uint)get_global_id(0);
-	struct knowing knowing = { opacity, passing, to_lights };
 
-	if (i >= n_rays)
-		return;
-	if (as_uint(rays[i].t_min) >> 31)
-		knowing.passing = 0;
-	hits[i] = walk_ray(&rays[i], 0, knowing, top + top_first, instance_list, instances, nodes, triangles).hit;
+	if (i < n_rays)
+		hits[i] = walk_ray(&rays[i], 0, 0, 0, top + top_first, instance_list, instances, nodes, triangles);
 }

@@ -15,7 +15,6 @@ struct walk {
 	uint row_x, row_y, row_z; /* offsets in floats in a node8 of the rows of near planes */
 	float t_min;
 	struct hit hit; /* hit.t: end of the ray so far */
-	uint asks;      /* 1: hit a surface that has to be sampled (kernels/rays/opacity.h) */
 };
 
 /*
@@ -71,9 +70,8 @@ static inline int walk_start(struct walk *w, __global const struct ray *ray)
 {
 	w->ox = ray->o[0], w->oy = ray->o[1], w->oz = ray->o[2];
 	w->dx = ray->d[0], w->dy = ray->d[1], w->dz = ray->d[2];
-	w->t_min = fabs(ray->t_min);
+	w->t_min = ray->t_min;
 	w->hit.t = ray->t_max;
-	w->asks = 0;
 	w->hit.b1 = w->hit.b2 = 0;
 	w->hit.instance = w->hit.primitive = SCENE_NONE;
 	if (!(w->t_min <= w->hit.t) || !isfinite(w->ox) || !isfinite(w->oy) || !isfinite(w->oz) || !isfinite(w->dx) ||
@@ -110,7 +108,6 @@ static inline float walk_enter(struct walk *w, const struct walk *eye, __global 
 	w->ox = fma(shift, w->dx, w->ox), w->oy = fma(shift, w->dy, w->oy), w->oz = fma(shift, w->dz, w->oz);
 	w->t_min = eye->t_min - shift;
 	w->hit.t = eye->hit.t - shift;
-	w->asks = 0;
 	if (shift > 0 && eye->hit.instance != SCENE_NONE)
 		w->hit.t += 3e-7f * eye->hit.t; /* t + shift decides */
 	w->hit.b1 = w->hit.b2 = 0;
@@ -125,7 +122,6 @@ static inline float walk_enter(struct walk *w, const struct walk *eye, __global 
 static inline void walk_leave(struct walk *eye, struct walk *w, float shift)
 {
 	w->hit.t += shift;
-	eye->asks |= w->asks;
 	if (w->hit.instance != SCENE_NONE &&
 	    (eye->hit.instance == SCENE_NONE || w->hit.t < eye->hit.t ||
 	     (w->hit.t == eye->hit.t && w->hit.instance < eye->hit.instance)))

@@ -52,35 +52,37 @@ static inline uint push_boxes(struct entry *stack, uint depth, uint bits, const 
 	return depth;
 }
 
-/* The opacity of surfaces, for rays that use it (kernels/rays/opacity.h). */
-struct knowing {
+/* The triangles of an instance that an any-hit query ignores: by side (rays_passes), and by kernels/rays/opacity.h. */
+struct ignored {
 	__global const uint *words;
-	uint passing; /* 1: they ignore surfaces that let all light pass */
-	uint to_lights;
+	uint opacity, passes, to_lights;
 };
 
-/* The same for an instance. */
-struct stops {
-	__global const uint *words;
-	uint opacity, passes; /* passes: as rays_passes */
-	uint to_lights;
-};
-
-static inline struct stops stops_of(__global const struct instance *instance, struct knowing knowing)
+static inline struct ignored ignored_of(__global const struct instance *instance, int any, uint to_lights,
+                                        __global const uint *words)
 {
-	struct stops s;
+	struct ignored i;
 
-	s.words = knowing.words;
-	s.opacity = knowing.passing ? instance->opacity : OPACITY_STOPS;
-	s.passes = knowing.passing ? rays_passes(instance->flags, knowing.to_lights) : 0;
-	s.to_lights = knowing.to_lights;
-	return s;
+	i.words = words;
+	i.opacity = any ? instance->opacity : OPACITY_STOPS;
+	i.passes = any ? rays_passes(instance->flags, to_lights) : 0;
+	i.to_lights = to_lights;
+	return i;
+}
+
+/* 1 if an any-hit query ignores a hit of a primitive. inverse: of the determinant */
+static inline int ignores_hit(struct ignored i, uint primitive, float inverse, float b1, float b2)
+{
+	const uint word = opacity_word(i.words, i.opacity, primitive);
+
+	return ((i.passes | opacity_sides(word, i.to_lights)) & rays_side(inverse)) ||
+	       opacity_passes(i.words, i.opacity, word, b1, b2);
 }
 
 /* Moeller and Trumbore on eight triangles. w->hit receives the nearest hit or, among equals, that of the lowest
- * primitive; of any-hit queries, one that is known to stop the ray. w->asks: 1 after hits that have to be sampled */
+ * primitive. ignored: for any-hit queries */
 static inline void try_block(struct walk *w, __global const struct triangle8 *block, uint instance, int any,
-                             struct stops stops)
+                             struct ignored ignored)
 {
 	const float8 e1x = vload8(0, block->e1[0]), e1y = vload8(0, block->e1[1]), e1z = vload8(0, block->e1[2]);
 	const float8 e2x = vload8(0, block->e2[0]), e2y = vload8(0, block->e2[1]), e2z = vload8(0, block->e2[2]);
@@ -106,21 +108,11 @@ static inline void try_block(struct walk *w, __global const struct triangle8 *bl
 		const float e2 = largest(block->e2[0][lane], block->e2[1][lane], block->e2[2][lane]);
 
 		bits &= bits - 1;
-		if (stops.passes & rays_side(((const float *)&inverse)[lane]))
+		if (any && ignores_hit(ignored, block->primitive[lane], ((const float *)&inverse)[lane], ((const float *)&u)[lane],
+		                       ((const float *)&v)[lane]))
 			continue;
 		if ((at < w->hit.t || (at == w->hit.t && block->primitive[lane] < w->hit.primitive)) &&
 		    RAYS_FLAT * e1 * e2 * (largest(w->dx, w->dy, w->dz) * fabs(((const float *)&inverse)[lane])) < 1) {
-			if (stops.opacity) {
-				const uint word = opacity_word(stops.words, stops.opacity, block->primitive[lane]);
-				const uint does = opacity_sides(word, stops.to_lights) & rays_side(((const float *)&inverse)[lane]) ?
-				                          OPACITY_PASSES :
-				                          opacity_at(stops.words, stops.opacity, word, ((const float *)&u)[lane],
-				                                     ((const float *)&v)[lane]);
-
-				w->asks |= does == OPACITY_ASK;
-				if (any ? does != OPACITY_STOPS : does == OPACITY_PASSES)
-					continue;
-			}
 			w->hit.t = at;
 			w->hit.b1 = ((const float *)&u)[lane];
 			w->hit.b2 = ((const float *)&v)[lane];
@@ -133,7 +125,7 @@ static inline void try_block(struct walk *w, __global const struct triangle8 *bl
 }
 
 /* Walk down from a node (y: 0) or a leaf of y blocks. */
-static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int any, struct stops stops,
+static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int any, struct ignored ignored,
                                 __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	struct entry stack[RAYS_WIDE_STACK], entry;
@@ -158,7 +150,7 @@ static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int 
 			depth = push_boxes(stack, depth, bits, &enter, any, node);
 		}
 		for (uint i = 0; i < entry.count; i++) {
-			try_block(w, &triangles[entry.child + i], instance, any, stops);
+			try_block(w, &triangles[entry.child + i], instance, any, ignored);
 			if (any && w->hit.instance != SCENE_NONE)
 				return;
 		}

@@ -20,12 +20,11 @@ struct args {
 	const struct instance *instances;
 	const void *nodes, *triangles;
 	enum tree tree;
-	const uint32_t *opacity; /* NULL: nothing is known of surfaces */
-	uint32_t passing, to_lights; /* as in kernels.h */
+	const uint32_t *opacity; /* NULL: it is not known which surfaces let all light pass */
 };
 #define ARGS_OF(a, kind) \
 	{ (a)->n_rays, (a)->rays, (a)->top_first, (a)->top, (a)->instance_list, (a)->instances, (a)->nodes, (a)->triangles, \
-	kind, NULL, 0, 0 }
+	kind, NULL }
 
 /* State of a ray during traversal. */
 struct walk {
@@ -34,9 +33,7 @@ struct walk {
 	float t_min;
 	struct hit hit; /* hit.t: end of the ray so far */
 	int any;        /* 1: any hit will do */
-	int passing;    /* 1: it ignores surfaces that let all light pass */
-	uint32_t passes, opacity;   /* the instance's, as in kernels/rays/rays.h and opacity.h */
-	uint32_t asks;              /* 1: it hit a surface that has to be sampled */
+	uint32_t to_lights, passes, opacity; /* as in kernels/rays/rays.h and opacity.h; for the instance that it walks */
 };
 
 static int done(const struct walk *w)
@@ -61,22 +58,16 @@ static float largest(const float v[3])
 	return fmaxf(fmaxf(fabsf(v[0]), fabsf(v[1])), fabsf(v[2]));
 }
 
-/* 1 if a ray meets a triangle on a side, at u, v: for any-hit queries, if it is known to stop there. */
-static int meets(struct walk *w, uint32_t primitive, uint32_t side, float u, float v)
+/* 1 if an any-hit query ignores a hit on a side of a primitive. */
+static int ignores(const struct walk *w, uint32_t primitive, uint32_t side, float u, float v)
 {
-	const struct args *a = w->args;
-	uint32_t word, does;
+	const uint32_t *words = w->args->opacity;
+	uint32_t word;
 
-	if (w->passes & side)
-		return 0;
-	if (!a->opacity || !w->passing)
-		return 1;
-	word = opacity_word(a->opacity, w->opacity, primitive);
-	if (opacity_sides(word, a->to_lights) & side)
-		return 0;
-	does = opacity_at(a->opacity, w->opacity, word, u, v);
-	w->asks |= does == OPACITY_ASK;
-	return w->any ? does == OPACITY_STOPS : does != OPACITY_PASSES;
+	if (!w->any || !words)
+		return (w->passes & side) != 0;
+	word = opacity_word(words, w->opacity, primitive);
+	return ((w->passes | opacity_sides(word, w->to_lights)) & side) || opacity_passes(words, w->opacity, word, u, v);
 }
 
 static void try_triangle(struct walk *w, const float v0[3], const float e1[3], const float e2[3], uint32_t instance,
@@ -97,7 +88,7 @@ static void try_triangle(struct walk *w, const float v0[3], const float e1[3], c
 	if (u >= -RAYS_EDGE_SLACK && v >= -RAYS_EDGE_SLACK && u + v <= 1 + RAYS_EDGE_SLACK && t >= w->t_min &&
 	    (t < w->hit.t || (t == w->hit.t && primitive < w->hit.primitive)) &&
 	    RAYS_FLAT * largest(e1) * largest(e2) * (largest(w->d) * fabsf(inverse)) < 1 &&
-	    meets(w, primitive, rays_side(inverse), u, v))
+	    !ignores(w, primitive, rays_side(inverse), u, v))
 		w->hit = (struct hit){ t, u, v, instance, primitive };
 }
 
@@ -269,7 +260,7 @@ static void walk_instance(struct walk *w, uint32_t instance_index)
 	w->hit = (struct hit){ eye.hit.t - shift, 0, 0, SCENE_NONE, SCENE_NONE };
 	if (shift > 0 && eye.hit.instance != SCENE_NONE)
 		w->hit.t += 3e-7f * eye.hit.t; /* t + shift decides */
-	w->passes = w->passing ? rays_passes(instance->flags, w->args->to_lights) : 0;
+	w->passes = rays_passes(instance->flags, w->to_lights);
 	w->opacity = instance->opacity;
 	if (in_range)
 		walk_blas(w, instance_index);
@@ -329,16 +320,13 @@ static void walk_top_binary(struct walk *w)
 	}
 }
 
-/* asks: receives 1 if surfaces have to be sampled */
-static struct hit walk_ray(const struct args *args, uint32_t index, int any, uint32_t *asks)
+static struct hit walk_ray(const struct args *args, uint32_t index, int any, uint32_t to_lights)
 {
 	const struct ray *ray = &args->rays[index];
-	struct walk w = { .args = args, .t_min = fabsf(ray->t_min), .any = any };
+	struct walk w = { .args = args, .t_min = ray->t_min, .any = any, .to_lights = to_lights };
 
 	w.hit = (struct hit){ ray->t_max, 0, 0, SCENE_NONE, SCENE_NONE };
-	w.passing = any || (args->passing && !signbit(ray->t_min));
-	*asks = 0;
-	if (!(w.t_min <= ray->t_max))
+	if (!(ray->t_min <= ray->t_max))
 		return w.hit;
 	for (int a = 0; a < 3; a++) {
 		if (!isfinite(ray->o[a]) || !isfinite(ray->d[a]))
@@ -351,35 +339,30 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any, uin
 		walk_top_rows(&w);
 	else
 		walk_top_binary(&w);
-	*asks = w.asks;
 	return w.hit;
 }
 
-/* The twins of one argument list: any hit, and nearest hit. KNOWN: sets the opacity that the nearest-hit kernel uses */
-#define TWINS(list, tree, words, KNOWN) \
+/* The twins of one argument list: any hit, and nearest hit. words: opacity, or NULL */
+#define TWINS(list, tree, words) \
 	void occlude_##list##_c(const struct occlude_##list##_arguments *a, size_t first, size_t last) \
 	{ \
 		struct args args = ARGS_OF(a, tree); \
-		uint32_t asks; \
 \
 		args.opacity = words; \
-		args.to_lights = a->to_lights; \
 		for (size_t i = first; i < last && i < a->n_rays; i++) \
-			a->occluded[i] = walk_ray(&args, (uint32_t)i, 1, &asks).instance != SCENE_NONE ? 1 : 2 * asks; \
+			a->occluded[i] = walk_ray(&args, (uint32_t)i, 1, a->to_lights).instance != SCENE_NONE; \
 	} \
 \
 	void intersect_##list##_c(const struct intersect_##list##_arguments *a, size_t first, size_t last) \
 	{ \
-		struct args args = ARGS_OF(a, tree); \
-		uint32_t asks; \
+		const struct args args = ARGS_OF(a, tree); \
 \
-		KNOWN \
 		for (size_t i = first; i < last && i < a->n_rays; i++) \
-			a->hits[i] = walk_ray(&args, (uint32_t)i, 0, &asks); \
+			a->hits[i] = walk_ray(&args, (uint32_t)i, 0, 0); \
 	}
-TWINS(wide, TREE_ROWS, a->opacity, args.opacity = a->opacity; args.passing = a->passing; args.to_lights = a->to_lights;)
-TWINS(binary, TREE_BINARY, NULL, )
-TWINS(compressed, TREE_COMPRESSED, NULL, )
+TWINS(wide, TREE_ROWS, a->opacity)
+TWINS(binary, TREE_BINARY, NULL)
+TWINS(compressed, TREE_COMPRESSED, NULL)
 
 void occlude_packet_c(const struct occlude_wide_arguments *a, size_t first, size_t last)
 {

@@ -9,13 +9,12 @@
 #include "kernels/frame/light/sample.h"
 #include "kernels/frame/light/transparency.h"
 
-/* t_min of a ray to a light that starts inside the body that it lights, at 0. While it may still be inside, its t_min
- * is negative (kernels/rays/rays.h). */
+/* t_min of a ray to a light that starts inside the body that it lights: a negative zero as a marker (shadow_walk). */
 #define SHADOW_WITHIN (-0.0f)
 
-static inline int shadow_is_within(GLOBAL const struct ray *ray)
+static inline int shadow_begins_within(GLOBAL const struct ray *ray)
 {
-	return (int)(M_BITS(ray->t_min) >> 31u);
+	return M_BITS(ray->t_min) == 0x80000000u;
 }
 
 static inline void stage_no_ray(GLOBAL struct ray *ray)
@@ -290,16 +289,15 @@ static inline void ao_ray_item(const struct ao_ray_arguments *a, uint32_t item)
 /* --- Results ----------------------------------------------------------------------------------------------------- */
 
 /*
- * shadow_sum: visibility of lights: rays that nothing stopped add `weight`. first: of this list. Of the others, those
- * that may continue are set to 1: all of them (through), or those whose surfaces have to be sampled
- * (kernels/rays/opacity.h) or may belong to the body that the ray lights.
+ * shadow_sum: visibility of lights: rays that nothing stopped add `weight`. first: of this list. Of the others, only
+ * those that may continue remain set.
  */
 static inline void shadow_sum_item(const struct shadow_sum_arguments *a, uint32_t item)
 {
 	float share = a->occluded[item] ? 0.0f : a->weight;
 
-	if (a->occluded[item])
-		a->occluded[item] = a->through || a->occluded[item] == 2u || shadow_is_within(&a->rays[item]) ? 1u : 0u;
+	if (a->occluded[item] && !a->through)
+		a->occluded[item] = (uint32_t)shadow_begins_within(&a->rays[item]);
 
 	for (uint32_t c = 0u; c < 3u; c++)
 		a->visibility[item * 3u + c] = a->first ? share : a->visibility[item * 3u + c] + share;
@@ -316,7 +314,7 @@ static inline void shadow_start_item(const struct shadow_start_arguments *a, uin
 	a->shadow_rays[a->places[item]] = a->rays[item];
 	v3_store(w->weight, v3(a->weight, a->weight, a->weight));
 	w->target = item;
-	w->kind = 0u;
+	w->kind = (uint32_t)shadow_begins_within(&a->rays[item]);
 	w->depth = 0u;
 	w->medium = SCENE_NONE;
 }
@@ -332,7 +330,10 @@ static inline int shadow_leaves_body(const struct tables *t, const struct hit *h
 	return (p.material->lighting || p.material->program_normals) && v3_dot(plane, sum) * v3_dot(plane, d) > 0.0f;
 }
 
-/* shadow_walk: continues past the surface that a ray to a light hit, or ends the ray. */
+/*
+ * shadow_walk: continues past the surface that a ray to a light hit, or ends the ray. A path's kind is 1 while the ray
+ * may still be inside the body that it lights.
+ */
 static inline void shadow_walk_item(const struct shadow_walk_arguments *a, uint32_t item)
 {
 	const struct tables *t = &a->tables;
@@ -340,21 +341,20 @@ static inline void shadow_walk_item(const struct shadow_walk_arguments *a, uint3
 	struct path w = a->paths[item];
 	struct vec3 weight = v3(w.weight[0], w.weight[1], w.weight[2]);
 	GLOBAL float *out = a->visibility + w.target * 3u;
-	int within = shadow_is_within(&a->rays[item]);
 
 	a->counts[item] = 0u;
 	if (hit.instance == SCENE_NONE) {
 		v3_store(out, v3_add(v3_load(out), weight));
 		return;
 	}
-	if (within && shadow_leaves_body(t, &hit, &a->rays[item]))
-		within = 0;
+	if (w.kind && shadow_leaves_body(t, &hit, &a->rays[item]))
+		w.kind = 0u;
 	else
 		weight = v3_mul(weight, transparency_of_hit(t, &hit, &a->rays[item], a->to_lights));
 	if (!(v3_most(weight) > a->least))
 		return;
 	a->next_rays[item] = a->rays[item];
-	a->next_rays[item].t_min = within ? -ray_beyond(hit.t) : ray_beyond(hit.t);
+	a->next_rays[item].t_min = ray_beyond(hit.t);
 	a->next_paths[item] = w;
 	v3_store(a->next_paths[item].weight, weight);
 	a->counts[item] = 1u;

@@ -80,9 +80,6 @@ int traverse_rays(struct device *dev, enum kernel kernel, const struct traverse_
 #define OCCLUDE_WIDE \
 	RAYS(occlude_wide, top8, nodes8, triangles8, .opacity = opacity, .to_lights = r->to_lights, .occluded = r->occluded)
 #define INTERSECT(list, top_of, nodes_of, triangles_of) RAYS(list, top_of, nodes_of, triangles_of, .hits = r->hits)
-#define INTERSECT_WIDE \
-	RAYS(intersect_wide, top8, nodes8, triangles8, .opacity = opacity, .passing = r->passing, .to_lights = r->to_lights, \
-	     .hits = r->hits)
 
 	switch (kernel) {
 	case KERNEL_occlude_packet:
@@ -94,9 +91,9 @@ int traverse_rays(struct device *dev, enum kernel kernel, const struct traverse_
 	case KERNEL_occlude_compressed:
 		return launch_occlude_compressed(dev, r->n, OCCLUDE(occlude_compressed, top2, nodes8c, triangles8c));
 	case KERNEL_intersect_packet:
-		return launch_intersect_packet(dev, packets, INTERSECT_WIDE);
+		return launch_intersect_packet(dev, packets, INTERSECT(intersect_wide, top8, nodes8, triangles8));
 	case KERNEL_intersect_wide:
-		return launch_intersect_wide(dev, r->n, INTERSECT_WIDE);
+		return launch_intersect_wide(dev, r->n, INTERSECT(intersect_wide, top8, nodes8, triangles8));
 	case KERNEL_intersect_binary:
 		return launch_intersect_binary(dev, r->n, INTERSECT(intersect_binary, top2, nodes2, triangles));
 	case KERNEL_intersect_compressed:

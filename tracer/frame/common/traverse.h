@@ -48,7 +48,6 @@ int traverse_camera(struct device *dev, enum kernel kernel, const struct travers
 struct traverse_rays {
 	const struct accel_space *space;
 	uint32_t n, to_lights;      /* to_lights: 1: KERNEL_occlude_* ignores the sides that transmit light */
-	uint32_t passing;           /* 1: KERNEL_intersect_* may ignore surfaces that let all light pass */
 	union buffer_ray rays;
 	union buffer_uint occluded; /* KERNEL_occlude_* */
 	union buffer_hit hits;      /* KERNEL_intersect_* */

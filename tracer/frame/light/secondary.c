@@ -3,13 +3,11 @@
 #include <stdlib.h>
 
 #include "base/err.h"
-#include "kernels/rays/opacity.h"
 #include "tracer/frame/hook/hook_objects.h"
 #include "tracer/frame/hook/hooks.h"
 #include "tracer/frame/light/buffers.h"
 #include "tracer/frame/light/emitters.h"
 #include "tracer/frame/light/scan.h"
-#include "tracer/frame/place/opacity.h"
 
 /* Most transmitting surfaces in a row that a ray to a light may pass, besides its bounces. */
 #define MOST_LAYERS 32u
@@ -44,7 +42,7 @@ static uint32_t packs(uint32_t n)
 	return (n + SHADE_PACKET - 1) / SHADE_PACKET;
 }
 
-/* Find which rays are stopped in a space: 1, or 2 if surfaces have to be sampled (kernels/rays/opacity.h). */
+/* Find which rays hit anything in a space. */
 static int occlude(const struct frame *frame, const struct accel_space *space, const struct light_rays *rays,
                    union buffer_uint occluded)
 {
@@ -62,11 +60,10 @@ static int occlude(const struct frame *frame, const struct accel_space *space, c
 static int intersect(const struct frame *frame, enum hook_rays_of whose, struct traverse_rays r)
 {
 	struct device *dev = frame->tr->dev;
-	int err = 0;
+	int err = r.space->n_nodes ?
+	                  traverse_rays(dev, traverse_families[device_family(dev)].intersect, &frame->tr->trees, &r) :
+	                  0;
 
-	r.passing = whose == HOOK_RAYS_TO_LIGHTS && opacity_is_known(frame, r.space) && !hooks_has(frame, HOOK_ANY_HIT);
-	if (r.space->n_nodes)
-		err = traverse_rays(dev, traverse_families[device_family(dev)].intersect, &frame->tr->trees, &r);
 	return err || !hook_objects_in(frame, r.space) ? err : hook_objects_intersect(frame, &r, whose);
 }
 
@@ -187,13 +184,13 @@ static int walk_layers(const struct frame *frame, const struct accel_space *spac
 
 	for (uint32_t i = 0; i < MOST_LAYERS && n && !err; i++) {
 		err = intersect(frame, HOOK_RAYS_TO_LIGHTS,
-		                (struct traverse_rays){ .space = space, .n = n, .to_lights = to->to_lights,
-		                                        .rays = *list.rays, .hits = b->shadow_hits });
+		                (struct traverse_rays){ .space = space, .n = n, .rays = *list.rays,
+		                                        .hits = b->shadow_hits });
 		if (!err)
 			err = launch_shadow_walk(tr->dev, n,
 			                         LAUNCH(shadow_walk, .tables = frame_tables(tr), .hits = b->shadow_hits,
 			                                .rays = *list.rays, .paths = *list.paths,
-			                                .to_lights = to->to_lights, .least = weight * OPACITY_LEAST,
+			                                .to_lights = to->to_lights, .least = weight * SHADOW_LEAST,
 			                                .n = n, .visibility = to->visibility,
 			                                .next_rays = *list.next_rays, .next_paths = *list.next_paths,
 			                                .counts = b->next_counts));
@@ -210,8 +207,7 @@ static int ask(const struct frame *frame, const struct accel_space *space, const
                uint32_t samples)
 {
 	struct light_buffers *b = frame->tr->light;
-	const int asks = hooks_has(frame, HOOK_ANY_HIT), transparent = frame->prepared.has_transparency,
-		  through = asks || (transparent && !opacity_is_known(frame, space));
+	const int through = frame->prepared.has_transparency || hooks_has(frame, HOOK_ANY_HIT);
 	float weight = 1.0f / (float)samples;
 	int err = occlude(frame, space, r, b->occluded);
 
@@ -220,7 +216,7 @@ static int ask(const struct frame *frame, const struct accel_space *space, const
 		                        LAUNCH(shadow_sum, .rays = r->rays, .weight = weight, .first = sample == 0,
 		                               .through = (uint32_t)through, .n = r->n, .occluded = b->occluded,
 		                               .visibility = r->visibility));
-	return err || !(r->to_lights || transparent || asks) ? err : walk_layers(frame, space, r, weight);
+	return err || !(r->to_lights || through) ? err : walk_layers(frame, space, r, weight);
 }
 
 int secondary_reserve_rays(const struct frame *frame, size_t n_rays, union buffer_float *visibility,

@@ -4,7 +4,6 @@
 
 #include "base/err.h"
 #include "base/hash.h"
-#include "kernels/frame/light/transparency.h"
 #include "kernels/rays/opacity.h"
 #include "tracer/frame/place/opacity_cells.h"
 #include "tracer/frame/place/opacity_sides.h"
@@ -18,42 +17,24 @@ struct source {
 	struct opacity_blocks *blocks; /* [n_textures]; made when they are first needed */
 };
 
-int opacity_is_known(const struct frame *frame, const struct accel_space *space)
+/* 1 if an instance lets all light pass, as transparency_of_hit finds everywhere. */
+static int passes_all(const struct scene_material *m)
 {
-	/*
-	 * No: a walk from surface to surface leaves out those at the same t as the last one. Rays that know both, such as a
-	 * film on a wall, would stop at the wall, on this family of kernels alone. Rays that only pass are the same on all.
-	 */
-	(void)frame;
-	(void)space;
-	return 0;
+	return m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_FILM) ||
+	       (m->blend && !m->depth_write && !(m->surface.transmit > 0) && !(m->surface.hidden & SCENE_SOLID));
 }
 
-/* The opacity of a whole instance, as transparency_of_hit finds it. */
-static uint32_t opacity_of(const struct instance *instance, const struct scene_material *m)
-{
-	struct scene_material rest = *m;
-
-	if (instance->flags & (INSTANCE_PASS_COUNTER | INSTANCE_PASS_CLOCKWISE)) /* the kernels know its sides */
-		rest.surface.hidden &= ~SCENE_ONE_SIDED;
-	if (transparency_is_none(&rest))
-		return OPACITY_STOPS;
-	if (m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_FILM))
-		return OPACITY_PASSES;
-	if (m->blend && !m->depth_write && !(m->surface.transmit > 0) && !(m->surface.hidden & SCENE_SOLID))
-		return OPACITY_PASSES;
-	return OPACITY_ASK;
-}
-
-/* 1 if only alpha, and the side that a ray meets, decide what an instance's triangles let pass. */
+/* 1 if nothing but alpha and the side that a ray meets decides where an instance lets all light pass. */
 static int has_words(const struct scene *scene, const struct instance *instance)
 {
 	const struct scene_instance *from = &scene->instances[instance->scene_instance];
 	const struct scene_material *m = &scene->materials[from->material];
+	const int passes_sides = instance->flags & (INSTANCE_PASS_COUNTER | INSTANCE_PASS_CLOCKWISE);
 
 	return instance->flags & INSTANCE_SECONDARY && !(instance->flags & (INSTANCE_BAKED | INSTANCE_SCREEN)) &&
 	       !(m->surface.transmit > 0) && !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped &&
-	       !m->floats && !m->program && scene->meshes[from->mesh]->kind == SCENE_TRIANGLES;
+	       !m->floats && !m->program && scene->meshes[from->mesh]->kind == SCENE_TRIANGLES &&
+	       (m->alpha_test || m->blend || (m->surface.hidden & SCENE_ONE_SIDED && !passes_sides));
 }
 
 /* --- Words ------------------------------------------------------------------------------------------------------- */
@@ -145,7 +126,7 @@ static size_t choose_items(struct opacity_met *met, struct pool_item *items, siz
 	return chosen;
 }
 
-/* Give words to instances whose surfaces have to be sampled, as far as something is known of them. */
+/* Give words to instances that let light pass in parts. */
 static int place_words(struct frame *frame, struct source *sources, uint32_t n, struct opacity_blocks *blocks)
 {
 	struct pool_item *items = calloc(n + (size_t)1, sizeof(*items));
@@ -191,8 +172,8 @@ int opacity_place(struct frame *frame)
 		const struct scene_instance *from = &scene->instances[instance->scene_instance];
 		const struct scene_material *m = &scene->materials[from->material];
 
-		instance->opacity = opacity_of(instance, m);
-		if (instance->opacity == OPACITY_ASK && has_words(scene, instance))
+		instance->opacity = passes_all(m) ? OPACITY_PASSES : OPACITY_STOPS;
+		if (!instance->opacity && has_words(scene, instance))
 			sources[n++] = (struct source){
 				.surface = { scene, scene->meshes[from->mesh], m, &scene->currents[from->current], opacity_unit(scene, m),
 				             NULL },

@@ -1,6 +1,5 @@
 /*
- * The words of an instance: what its triangles do to rays to lights (kernels/rays/opacity.h), as far as it is the same
- * for all rays.
+ * The words of an instance: where its triangles let all light pass (kernels/rays/opacity.h).
  */
 #pragma once
 
