@@ -62,7 +62,8 @@ def main():
         name = f"pack_refuses_{kind}" + ("" if struct == "material" else f"_{struct}")
         more = "".join(f", int {parameter}" for parameter in parameters.get(kind, []))
         tests = " ||\n\t       ".join(f"({part})" for part in parts)
-        text.append(f"\nstatic inline int {name}(GLOBAL const struct scene_{struct} *s{more})\n{{\n\treturn {tests};\n}}")
+        text.append(f"\nstatic inline int {name}(GLOBAL const struct scene_{struct} *s{more})\n"
+                    f"{{\n\treturn {tests};\n}}")
     pathlib.Path(out).write_text("\n".join(text) + "\n")
 
 

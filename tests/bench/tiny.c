@@ -10,32 +10,12 @@
 
 static const float right[3] = { 1, 0, 0 }, up[3] = { 0, 1, 0 };
 
-/* Texels selected by generated object coordinates. */
-static const uint8_t texels[] = { 255, 0, 0, 255, 0, 255, 0, 60, 0, 0, 255, 255, 255, 255, 255, 60 };
-static const struct scene_texture texture = { .hash = { 7, 7 },
-	                                      .target = GL_TEXTURE_2D,
-	                                      .base_format = GL_RGBA,
-	                                      .width = 2,
-	                                      .height = 2,
-	                                      .depth = 1,
-	                                      .n_levels = 1,
-	                                      .texels = texels,
-	                                      .n_bytes = sizeof(texels) };
-static const struct scene_texture *const textures[] = { &texture };
-
+/* Texels are selected by generated object coordinates. */
 static void add_unit(struct made *t, struct scene_unit *unit)
 {
-	*unit = (struct scene_unit){ .wrap_s = GL_REPEAT, .wrap_t = GL_REPEAT, .wrap_r = GL_REPEAT, .min_filter = GL_LINEAR,
-		                     .mag_filter = GL_LINEAR, .max_lod = 1000, .min_lod = -1000, .max_anisotropy = 1,
-		                     .env_mode = GL_MODULATE, .scale_rgb = 1, .scale_alpha = 1,
-		                     .gen_mode = { GL_OBJECT_LINEAR, GL_OBJECT_LINEAR } };
+	truth_add_texture(t, unit);
+	unit->gen_mode[0] = unit->gen_mode[1] = GL_OBJECT_LINEAR;
 	unit->gen_object_plane[0][0] = unit->gen_object_plane[1][1] = 0.7f;
-	for (int k = 0; k < 4; k++)
-		unit->matrix[5 * k] = 1;
-	t->scene.units = unit;
-	t->scene.n_units = 1;
-	t->scene.textures = (const struct scene_texture **)textures;
-	t->scene.n_textures = 1;
 }
 
 /* A sky, a textured floor, a mirror, glass, a film and a leaf with holes, also as lines and points. */

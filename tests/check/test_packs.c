@@ -23,32 +23,19 @@ struct world {
 	uint32_t stipple[32];
 };
 
-static const uint8_t texels[] = { 255, 0, 0, 255, 0, 255, 0, 60, 0, 0, 255, 255, 255, 255, 255, 60 };
-static const struct scene_texture texture = { .hash = { 7, 7 }, .target = GL_TEXTURE_2D, .base_format = GL_RGBA,
-	                                      .width = 2, .height = 2, .depth = 1, .n_levels = 1, .texels = texels,
-	                                      .n_bytes = sizeof(texels) };
-static const struct scene_texture *const textures[] = { &texture };
-
 static void make(struct world *w)
 {
 	struct made *t = &w->made;
 	uint32_t floor, mirror;
 
 	made_init(t, WIDTH, HEIGHT, 0.6f);
-	w->unit = (struct scene_unit){ .wrap_s = GL_REPEAT, .wrap_t = GL_REPEAT, .wrap_r = GL_REPEAT,
-		                       .min_filter = GL_LINEAR, .mag_filter = GL_LINEAR, .max_lod = 1000, .min_lod = -1000,
-		                       .max_anisotropy = 1, .env_mode = GL_MODULATE, .scale_rgb = 1, .scale_alpha = 1,
-		                       .combine_rgb = GL_MODULATE, .combine_alpha = GL_MODULATE,
-		                       .source_rgb = { GL_TEXTURE, GL_PREVIOUS, GL_CONSTANT },
-		                       .source_alpha = { GL_TEXTURE, GL_PREVIOUS, GL_CONSTANT },
-		                       .operand_rgb = { GL_SRC_COLOR, GL_SRC_COLOR, GL_SRC_COLOR },
-		                       .operand_alpha = { GL_SRC_ALPHA, GL_SRC_ALPHA, GL_SRC_ALPHA } };
-	for (int k = 0; k < 4; k++)
-		w->unit.matrix[5 * k] = 1;
-	t->scene.units = &w->unit;
-	t->scene.n_units = 1;
-	t->scene.textures = (const struct scene_texture **)textures;
-	t->scene.n_textures = 1;
+	truth_add_texture(t, &w->unit);
+	w->unit.combine_rgb = w->unit.combine_alpha = GL_MODULATE;
+	for (int i = 0; i < 3; i++) {
+		w->unit.source_rgb[i] = w->unit.source_alpha[i] = (const uint32_t[]){ GL_TEXTURE, GL_PREVIOUS, GL_CONSTANT }[i];
+		w->unit.operand_rgb[i] = GL_SRC_COLOR;
+		w->unit.operand_alpha[i] = GL_SRC_ALPHA;
+	}
 	for (int i = 0; i < 32; i++)
 		w->stipple[i] = 0x55555555u << i % 2;
 	t->scene.stipples = &w->stipple;

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # limit: 300 s
-"""Frames of several looks go through packets in two or three steps (kernels/frame/layered/layered.cl), other frames stage by
-stage. tests/real/layers.c must give the same files as other kernels and as the twins, byte for byte: in shadow, with
-mirrors and glass by rules, in several rounds (frames 3 and 4), and with pictures that replay requests (from frame 5
-on)."""
+"""Frames of several looks go through packets in two or three steps (kernels/frame/layered/layered.cl), other frames
+stage by stage. tests/real/layers.c must give the same files as other kernels and as the twins, byte for byte: in
+shadow, with mirrors and glass by rules, in several rounds (frames 3 and 4), and with pictures that replay requests
+(from frame 5 on)."""
 import json
 
 from helpers import BUILD, SCRATCH, check, finish, must, record, relume, render

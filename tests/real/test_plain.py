@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # limit: 400 s
-"""Plain frames go through packets in one step (kernels/frame/plain/plain.h), those of several looks in two or three; kernels
-with one pixel per work item handle plain frames without programs. Without rays (mode gl) the camera's part is in the
-same step. All write the same files, byte for byte; also with rules that start shadow rays on flat faces, and with
-ambient light from all sides, where programs take other paths and the C twins must agree."""
+"""Plain frames go through packets in one step (kernels/frame/plain/plain.h), those of several looks in two or three;
+kernels with one pixel per work item handle plain frames without programs. Without rays (mode gl) the camera's part is
+in the same step. All write the same files, byte for byte; also with rules that start shadow rays on flat faces, and
+with ambient light from all sides, where programs take other paths and the C twins must agree."""
 import json
 
 import exr

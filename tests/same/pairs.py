@@ -143,7 +143,8 @@ class Told:
             if done.returncode == 77:
                 return Verdict(None, done.stdout.strip())
             if done.returncode:
-                return Verdict(False, f"the relation cannot be applied: exit code {done.returncode}: {done.stderr.strip()}")
+                return Verdict(
+                    False, f"the relation cannot be applied: exit code {done.returncode}: {done.stderr.strip()}")
         image = self.render(trace, self.cut_frame, name)
         if name != "-":
             trace.unlink()

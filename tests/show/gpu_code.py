@@ -3,8 +3,8 @@
 run, without a GPU: compiled by clang with libclc, for NVIDIA assembled by ptxas, for AMD by LLVM. A driver's own
 compiler may differ, but a change that ruins a kernel shows.
 
-Bars, for kernels that trace rays or draw plain frames: nothing is spilled to memory, and they need at most 64 of NVIDIA's
-registers (a multiprocessor of 65,536 then keeps 1,024 threads), or a limit whose reason is given below.
+Bars, for kernels that trace rays or draw plain frames: nothing is spilled to memory, and they need at most 64 of
+NVIDIA's registers (a multiprocessor of 65,536 then keeps 1,024 threads), or a limit whose reason is given below.
 """
 import argparse
 import pathlib
@@ -48,8 +48,9 @@ LIMITS = {
 
 def find_clang():
     """A clang that reads the libraries: they are as old as it or older."""
-    names = sorted((name for folder in ("/usr/bin", "/usr/local/bin") for name in pathlib.Path(folder).glob("clang-[0-9]*")
-                    if re.fullmatch(r"clang-\d+", name.name)), key=lambda name: int(name.name[6:]))
+    found = (name for folder in ("/usr/bin", "/usr/local/bin") for name in pathlib.Path(folder).glob("clang-[0-9]*"))
+    names = sorted((name for name in found if re.fullmatch(r"clang-\d+", name.name)),
+                   key=lambda name: int(name.name[6:]))
     with tempfile.TemporaryDirectory() as folder:
         probe = pathlib.Path(folder, "probe.cl")
         probe.write_text("__kernel void k(__global float *x) { x[0] = sqrt(x[1]); }")
@@ -60,8 +61,8 @@ def find_clang():
 
 
 def compile_file(clang, target, processor, library, source, out, build=None):
-    command = [clang, "-target", target, *OPTIONS, "-nogpulib", "-Xclang", "-target-cpu", "-Xclang", processor, "-Xclang",
-               "-mlink-builtin-bitcode", "-Xclang", LIBRARIES / f"{library}.bc", "-S", "-o", out, source]
+    command = [clang, "-target", target, *OPTIONS, "-nogpulib", "-Xclang", "-target-cpu", "-Xclang", processor,
+               "-Xclang", "-mlink-builtin-bitcode", "-Xclang", LIBRARIES / f"{library}.bc", "-S", "-o", out, source]
     if build:
         command.insert(1, f"-I{build / 'gen'}")
     run = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -79,8 +80,8 @@ def read_ptxas(ptxas, processor, text):
     found = {}
     for part in run.stderr.split("Compiling entry function")[1:]:
         name = re.match(r" '(\w+)'", part)[1]
-        stack, stores, loads = map(int, re.search(r"(\d+) bytes stack frame, (\d+) bytes spill stores, (\d+) bytes spill",
-                                                  part).groups())
+        stack, stores, loads = map(
+            int, re.search(r"(\d+) bytes stack frame, (\d+) bytes spill stores, (\d+) bytes spill", part).groups())
         found[name] = int(re.search(r"Used (\d+) registers", part)[1]), stores + loads, stack
     return found
 

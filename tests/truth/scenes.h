@@ -13,6 +13,29 @@
 #include "tracer/image/image.h"
 #include "tracer/frame/trace.h"
 
+/**
+ * Give a scene one texture of 2 x 2 texels, two of them nearly transparent, in a unit that modulates.
+ * @param unit  the scene's; other members may be set afterwards
+ */
+static inline void truth_add_texture(struct made *made, struct scene_unit *unit)
+{
+	static const uint8_t texels[] = { 255, 0, 0, 255, 0, 255, 0, 60, 0, 0, 255, 255, 255, 255, 255, 60 };
+	static const struct scene_texture texture = { .hash = { 7, 7 }, .target = GL_TEXTURE_2D, .base_format = GL_RGBA,
+		                                      .width = 2, .height = 2, .depth = 1, .n_levels = 1,
+		                                      .texels = texels, .n_bytes = sizeof(texels) };
+	static const struct scene_texture *const textures[] = { &texture };
+
+	*unit = (struct scene_unit){ .wrap_s = GL_REPEAT, .wrap_t = GL_REPEAT, .wrap_r = GL_REPEAT, .min_filter = GL_LINEAR,
+		                     .mag_filter = GL_LINEAR, .max_lod = 1000, .min_lod = -1000, .max_anisotropy = 1,
+		                     .env_mode = GL_MODULATE, .scale_rgb = 1, .scale_alpha = 1 };
+	for (int k = 0; k < 4; k++)
+		unit->matrix[5 * k] = 1;
+	made->scene.units = unit;
+	made->scene.n_units = 1;
+	made->scene.textures = (const struct scene_texture **)textures;
+	made->scene.n_textures = 1;
+}
+
 /** One value of a channel; x from the left, y from the top. */
 static inline float truth_at(const struct image *img, const char *channel, uint32_t x, uint32_t y)
 {

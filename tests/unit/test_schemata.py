@@ -80,7 +80,8 @@ class Schemata(unittest.TestCase):
                 if number in self.by_number and run({"RELUME_MUTANT": str(number)}, *arguments) != alone:
                     self.assertEqual(what & 2, 2, f"{self.by_number[number].described()} changes what is printed")
         of = {
-            site.described().split(": ")[1] + f" line {site.line}": seen[number] for number, site in self.by_number.items()
+            site.described().split(": ")[1] + f" line {site.line}": seen[number]
+            for number, site in self.by_number.items()
         }
         self.assertEqual(of["branch `next(&calls) + n > 3 && n > 2` -> `(next(&calls) + n > 3 && n > 2) && 0` line 18"],
                          [0, 3], "not taken the first time")
