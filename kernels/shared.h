@@ -240,11 +240,14 @@ SHARED_SIZE(struct shaded_vertex, 128);
  */
 #define GEOMETRY_LINE 16u
 
+/* scene_instance.given in geometry.attributes: the same bits times this. */
+#define GEOMETRY_GIVEN SCENE_HAS_FACE
+
 /* One instance as the vertex and fragment stages see it, at the same index as its struct instance. */
 struct geometry {
 	float eye_from_obj[16], clip_from_obj[16];
 	float normal_matrix[12]; /* 3 rows of 4: inverse transpose of the modelview, rescaled if GL rescales it */
-	uint32_t attributes;     /* as scene_mesh.attributes */
+	uint32_t attributes;     /* as scene_mesh.attributes; GEOMETRY_GIVEN .. */
 	uint32_t position, normal, color, secondary, fog_coord; /* start of each array in the pool of floats */
 	uint32_t texcoord[SCENE_MAX_UNITS], face;
 	uint32_t generics;        /* start of each generic array that `attributes` has, in order */

@@ -191,7 +191,8 @@ static const struct field view_fields[] = {
 
 static const struct field instance_fields[] = {
 	FIELD(instance, mesh), FIELD(instance, material), FIELD(instance, view), FIELD(instance, current),
-	FIELD(instance, draw), FIELD(instance, first_primitive), FIELD(instance, modelview),
+	FIELD(instance, draw), FIELD(instance, first_primitive), FIELD(instance, given),
+	FIELD(instance, modelview),
 	{ 0 },
 };
 

@@ -249,6 +249,8 @@ struct scene_instance {
 	uint32_t current;  /* scene.currents */
 	uint32_t draw;     /* draw number of its first primitive, counted from 1 in each frame */
 	uint32_t first_primitive; /* see "Draw order" above */
+	uint32_t given; /* SCENE_HAS_COLOR, SCENE_HAS_SECONDARY: the program gave each vertex its own colour, even if all
+	                   are alike; llvmpipe then interpolates it, with rounding errors */
 	float modelview[16]; /* object to eye space; may be singular or projective (planar shadows) */
 	/*
 	 * 0, or 1 + index into scene.rectangles. Each vertex of the mesh, a point, is then the outer corner of a

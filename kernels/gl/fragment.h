@@ -88,6 +88,40 @@ static inline struct vec4 point_planes_at(const struct point_planes *planes, flo
 	          clip_plane_at(&planes->r, x, y) * w, clip_plane_at(&planes->q, x, y) * w);
 }
 
+/* One of the colours of a triangle's corners at a pixel. pool: the corners'. x, y: as for point_planes_at */
+static inline struct vec4 point_color_by_planes(struct vec4 *pool, const struct clip_setup *setup, float x, float y)
+{
+	struct point_planes planes;
+
+	point_planes_between(pool, setup, &planes);
+	return point_planes_at(&planes, x, y);
+}
+
+/*
+ * Colours between lit vertices to llvmpipe's last bit, which shows where a colour lies half way between two codes.
+ * again: the corners as point_light_corners lit them; 0: as they were lit first
+ */
+static inline struct lit point_lit_by_planes(const struct point *p, const struct lit *again,
+                                             const struct clip_setup *setup, float x, float y)
+{
+	GLOBAL const struct scene_material *m = p->material;
+	const uint32_t interpolated = point_interpolated(m, p->geometry->attributes);
+	struct lit lit = again ? point_lit_between(p, again) : point_lit_from_vertices(p);
+	struct vec4 pool[3 + CLIP_MAX_CUTS];
+	const int side = point_side(p);
+
+	for (uint32_t k = 0u; k < 3u && interpolated & SCENE_HAS_COLOR; k++)
+		pool[k] = again ? again[k].color : v4_load(p->vertex[k]->color[side]);
+	if (interpolated & SCENE_HAS_COLOR)
+		lit.color = point_color_by_planes(pool, setup, x, y);
+	if (!(interpolated & SCENE_HAS_SECONDARY) || !(m->color_sum || (m->lighting && m->separate_specular)))
+		return lit;
+	for (uint32_t k = 0u; k < 3u; k++)
+		pool[k] = again ? again[k].secondary : v4_load(p->vertex[k]->secondary[side]);
+	lit.secondary = point_color_by_planes(pool, setup, x, y);
+	return lit;
+}
+
 /*
  * Results of sampling the first unit's texture in a triangle, cached for its next fragment. Fragment lists follow rows
  * of eight pixels: four quads, which the next row shares.

@@ -312,6 +312,19 @@ static inline int point_side(const struct point *p)
 	return p->material->two_side && !p->front;
 }
 
+/*
+ * The colours that llvmpipe interpolates, as SCENE_HAS_*: those that vertices do not all have from the current state
+ * (Mesa 22.3.6, filter_fp_input_mask). Others have no rounding errors.
+ */
+static inline uint32_t point_interpolated(GLOBAL const struct scene_material *m, uint32_t attributes)
+{
+	const uint32_t all = SCENE_HAS_COLOR | SCENE_HAS_SECONDARY;
+
+	if (m->shade_model == GL_FLAT)
+		return 0u;
+	return m->lighting || m->vertex_program ? all : attributes / GEOMETRY_GIVEN & all;
+}
+
 static inline struct lit point_lit_from_vertices(const struct point *p)
 {
 	int side = point_side(p);

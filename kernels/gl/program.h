@@ -14,7 +14,8 @@ struct program_fragment {
 	const struct shade_arguments *a;
 	struct point p;
 	struct point_window window;
-	uint32_t own; /* index of the fragment's own pixel in the quad */
+	uint32_t own;            /* index of the fragment's own pixel in the quad */
+	const struct lit *again; /* as for point_lit_by_planes */
 	struct program_run run;
 };
 
@@ -92,7 +93,7 @@ static inline void program_position(struct program_fragment *f, const struct poi
 	}
 }
 
-/* Colours interpolated by the fragment's weights, as visibility may have dimmed them. */
+/* Colours of slivers and of pixels: interpolated by the fragment's weights. */
 static inline void program_colors_by_weights(struct program_fragment *f, const struct lit *lit,
                                              const struct point_quad *quad)
 {
@@ -127,8 +128,12 @@ static inline void program_colors_by_planes(struct program_fragment *f, uint32_t
 		for (uint32_t k = 0u; k < 3u; k++) {
 			GLOBAL const struct shaded_vertex *v = f->p.vertex[k];
 
-			pool[k] = input == SCENE_INPUT_COLOR ? v4_load(v->color[side]) :
-			          input == SCENE_INPUT_SECONDARY ? v4_load(v->secondary[side]) : v4(v->fog_coord, 0.0f, 0.0f, 0.0f);
+			if (input == SCENE_INPUT_FOG)
+				pool[k] = v4(v->fog_coord, 0.0f, 0.0f, 0.0f);
+			else if (f->again)
+				pool[k] = input == SCENE_INPUT_COLOR ? f->again[k].color : f->again[k].secondary;
+			else
+				pool[k] = v4_load(input == SCENE_INPUT_COLOR ? v->color[side] : v->secondary[side]);
 		}
 		if (input != SCENE_INPUT_FOG && f->p.material->shade_model == GL_FLAT) {
 			for (uint32_t k = 0u; k < 4u; k++)
@@ -155,7 +160,7 @@ static inline void program_inputs(struct program_fragment *f, uint32_t inputs, c
 	f->run.registers[4u * SCENE_INPUT_FACE] = program_splat(f->p.front ? 1.0f : 0.0f);
 	if (!(inputs & (1u << SCENE_INPUT_COLOR | 1u << SCENE_INPUT_SECONDARY | 1u << SCENE_INPUT_FOG)))
 		return;
-	if (f->window.setup && !f->a->n_slots && !(f->p.geometry->flags & GEOMETRY_PIXELS))
+	if (f->window.setup && !(f->p.geometry->flags & GEOMETRY_PIXELS))
 		program_colors_by_planes(f, inputs, &quad);
 	else
 		program_colors_by_weights(f, lit, &quad);
@@ -208,16 +213,13 @@ static inline int program_find(const struct shade_arguments *s, uint32_t item, i
 	f->window.kept = (struct point_kept *)0;
 	f->window.height = s->height;
 	f->own = (f->window.x & 1u) + 2u * ((s->height - 1u - f->window.row) & 1u);
-	*lit = point_lit_from_vertices(&f->p);
 	stage_seen(s->visibility, s->n_slots, s->n, item, seen);
-	if (is_lit) {
-		if (!setup_keeps_seen(seen, keeps, kept))
-			program_light_corners(s, &f->p, seen, &f->run, kept->lit);
-		*lit = point_lit_between(&f->p, kept->lit);
-	} else if (s->n_slots) {
+	if (is_lit && !setup_keeps_seen(seen, keeps, kept))
+		program_light_corners(s, &f->p, seen, &f->run, kept->lit);
+	else if (!is_lit && s->n_slots)
 		setup_keep_lit(&s->tables, seen, keeps, kept);
-		*lit = point_lit_between(&f->p, kept->lit);
-	}
+	f->again = is_lit || s->n_slots ? kept->lit : (const struct lit *)0;
+	*lit = stage_lit(&f->p, f->again, &f->window);
 	if (f->p.geometry->flags & GEOMETRY_PIXELS) {
 		group = stage_pixel_group(&s->tables, &f->p, f->window.x, s->height - 1u - f->window.row, &kind);
 		if (kind == SCENE_COLOR_PIXELS || kind == SCENE_FLOAT_PIXELS)

@@ -131,11 +131,10 @@ static inline void setup_keep(const struct shade_arguments *a, uint32_t x, uint3
 	kept->instance = cut ? SCENE_NONE : f->instance;
 	kept->primitive = f->primitive;
 	kept->p = point_of_triangle(&a->tables, a->windows, f, kept->w_inv);
-	kept->have_lit = kept->have_setup = 0;
+	kept->have_lit = 0;
 	point_keep_nothing(&kept->sampling);
-	if (needs_depth || kept->p.material->unit_count)
-		kept->have_setup = setup_triangle(&a->views[kept->p.geometry->view], a->windows, &kept->p, x, y,
-		                                  a->height, cut, &kept->setup);
+	kept->have_setup = setup_triangle(&a->views[kept->p.geometry->view], a->windows, &kept->p, x, y, a->height, cut,
+	                                  &kept->setup);
 	if (needs_depth && kept->have_setup) {
 		const float z[3] = { kept->setup.corner[0].window.z, kept->setup.corner[1].window.z, kept->setup.corner[2].window.z };
 

@@ -327,6 +327,16 @@ static inline int stage_place_first(const struct shade_arguments *a, uint32_t x,
 	return !clipped && !stage_undrawn(&kept->p, x, a->height - 1u - y) && !stage_stippled_away(&a->tables, &kept->p, x, y);
 }
 
+/* A fragment's colours between its lit vertices. again: as for point_lit_by_planes */
+static inline struct lit stage_lit(const struct point *p, const struct lit *again, const struct point_window *w)
+{
+	const float middle = 0.5f - clip_origin(w->view), x = (float)w->x + middle;
+
+	if (w->setup && !(p->geometry->flags & GEOMETRY_PIXELS))
+		return point_lit_by_planes(p, again, w->setup, x, (float)(w->height - 1u - w->row) + middle);
+	return again ? point_lit_between(p, again) : point_lit_from_vertices(p);
+}
+
 /*
  * shade: n_slots == 0 computes a fragment's GL colour, its depth and the lights whose visibility it needs; n_slots > 0
  * computes the colour of those fragments with the lights' visibility. transport: TRANSPORT_*. kept: cache for the
@@ -347,7 +357,7 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 	struct vec4 color;
 	float coverage;
 	uint32_t x, y, kind = 0u;
-	int drawn = 1;
+	int drawn = 1, is_lit_again;
 
 	if (a->n_slots && (!stage_dimmed(a->visibility, a->n_slots, a->n, item) || !(out->flags & SHADED_THERE)))
 		return;
@@ -384,12 +394,10 @@ static inline void shade_item(const struct shade_arguments *a, uint32_t item, in
 	window.row = y;
 	window.height = a->height;
 	point_texture(t, &p, &window, &texturing);
-	if (a->n_slots && !p.material->surface.relit) {
+	is_lit_again = a->n_slots && !p.material->surface.relit;
+	if (is_lit_again)
 		setup_keep_lit(t, seen, keeps, kept);
-		lit = from_vertices = point_lit_between(&p, kept->lit);
-	} else {
-		lit = from_vertices = point_lit_from_vertices(&p);
-	}
+	lit = from_vertices = stage_lit(&p, is_lit_again ? kept->lit : (const struct lit *)0, &window);
 	if (kind == SCENE_COLOR_PIXELS || kind == SCENE_FLOAT_PIXELS)
 		lit.color = stage_texel_color(group, kind);
 	color = point_finish(t, &p, &texturing, &lit);

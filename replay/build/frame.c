@@ -229,6 +229,7 @@ int gls_frame_add(struct gls_exec *x, const struct gls_target *target, struct gl
 		goto fail;
 	instance->current = gls_frame_current(x, f, &mesh->mesh, &s->materials[f->material], values);
 	instance->draw = first_draw;
+	instance->given = e->given & (SCENE_HAS_COLOR | SCENE_HAS_SECONDARY);
 	instance->first_primitive = f->next_primitive;
 	memcpy(instance->modelview, e->in_window ? mat4_identity : st->modelview.matrices[st->modelview.depth], 64);
 	f->next_primitive += mesh->mesh.primitive_count;

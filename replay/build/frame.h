@@ -41,6 +41,8 @@ struct gls_event {
 	const struct gls_attribs *attribs; /* attributes to draw with: the state's, or modified ones */
 	struct gls_mesh *mesh;     /* no reference is taken (the scene takes its own) */
 	const float (*values)[4];  /* values of attributes that the mesh lacks */
+	uint32_t given;            /* attributes that each vertex was given: by arrays, or between Begin and End; as
+	                              scene_mesh.attributes */
 	uint32_t command;
 	uint64_t call_number;
 	const struct scene_rectangle *rectangle; /* at the mesh's only point; its texture is filled in. NULL: not a

@@ -164,6 +164,7 @@ static void put_op(struct saver *s, const struct gls_op *op)
 		put_values4(s->out, op->mesh->before, op->mesh->before_values);
 		put_values4(s->out, op->mesh->after, op->mesh->after_values);
 		bytes_put_u64(s->out, (uint64_t)op->mesh->first_provokes << 32 | op->mesh->n_draws);
+		bytes_put_u64(s->out, op->mesh->given);
 		bytes_put_u64(s->out, op->mesh->mesh != NULL);
 		if (op->mesh->mesh)
 			put_mesh(s, op->mesh->mesh);
@@ -274,6 +275,7 @@ static void get_op(struct loader *l, struct gls_list *list, struct gls_op *op)
 	n_draws = cursor_u64(&l->in);
 	kept->n_draws = (uint32_t)n_draws;
 	kept->first_provokes = n_draws >> 32 & 1;
+	kept->given = (uint32_t)cursor_u64(&l->in);
 	if (cursor_u64(&l->in))
 		kept->mesh = get_mesh(l);
 }

@@ -13,7 +13,7 @@
 void gls_geometry_clear(struct gls_geometry *g)
 {
 	g->n_vertices = g->n_primitives = g->n_draws = g->begin_vertex = 0;
-	g->varying = g->touched = g->edges_told = g->quads = 0;
+	g->varying = g->touched = g->given = g->edges_told = g->quads = 0;
 }
 
 void gls_geometry_free(struct gls_geometry *g)

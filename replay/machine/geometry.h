@@ -26,6 +26,8 @@ struct gls_geometry {
 	uint32_t edges_told;     /* 1: an edge flag is off, or a primitive continues another */
 	uint32_t quads;          /* 1: all primitives come from GL_QUADS */
 	uint32_t touched;        /* bit set of attributes that may differ from `constant` by now: 1 << attribute */
+	uint32_t given;          /* attributes that vertices have of their own in Mesa's vertex store, even if all alike: as
+	                            gls_event.given */
 	float constant[N_GLS_ATTRIBUTES][4]; /* values of the attributes that do not vary */
 };
 

@@ -45,6 +45,9 @@ PROGRAMS = {
     "summed": ("colours", "numbers", "a product", "a large load", "sums that fit"),
     "srgb": ("shades", "blends", "pixels", "lit and textured", "through sRGB", "through a plain texture",
              "through floats", "a pushed switch"),
+    "ties": ("a current colour", "the vertices' colour", "in a list", "a list's current colour", "an array",
+             "set after a few vertices", "set after many", "clipped triangles", "lit", "textured", "other colours",
+             "flat", "a second colour", "w of 3", "points"),
     "valleys": ("lit from the front",),
 }
 

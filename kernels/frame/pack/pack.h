@@ -45,6 +45,7 @@ struct pack {
 	struct pack_edges edges;
 	packf b1, b2, depth, weight[3];
 	packf away; /* as struct geometry */
+	packu attributes;
 };
 
 /* Clipping results that the fragments of a triangle share, cached for later fragments. */
@@ -187,8 +188,10 @@ WIDE_VECTORS static inline void pack_load_triangles(const struct tables *t, cons
 	p->uniform = !any_pack((instance != instance.s0) | (primitive != primitive.s0));
 	p->cut = (primitive & FRAGMENT_PERSPECTIVE) != 0;
 	p->away = g->away;
+	p->attributes = g->attributes;
 	if (any_pack(instance != instance.s0)) {
 		p->away = as_float16(PACK_WORDS((__global const uint *)&t->geometries->away, instance * step));
+		p->attributes = PACK_WORDS(&t->geometries->attributes, instance * step);
 		index = PACK_WORDS(&t->geometries->index, instance * step);
 		vertex = PACK_WORDS(&t->geometries->vertex_first, instance * step);
 	}

@@ -240,14 +240,15 @@ static inline void pack_execute(const struct tables *t, const struct pack *p, co
 
 /* --- Inputs ------------------------------------------------------------------------------------------------------ */
 
-/* program_light_corners and point_lit_between, lane by lane. */
-static inline void pack_lit_by_program(const struct shade_arguments *a, const struct pack_list *list,
-                                       const struct pack *p, uint lanes, struct pack_kept *kept,
-                                       struct program_run *run, struct vec4_16 *color, struct vec4_16 *secondary)
+/* program_light_corners, lane by lane. */
+static inline void pack_light_again_by_program(const struct shade_arguments *a, const struct pack_list *list,
+                                               const struct pack *p, uint lanes, struct pack_kept *kept,
+                                               struct program_run *run, struct pack_corners_lit *lit)
 {
 	const struct vec4_16 none = v4_16(0, 0, 0, 0);
-	struct pack_corners_lit lit = { { none, none, none }, { none, none, none } };
 
+	for (int k = 0; k < 3; k++)
+		lit->color[k] = lit->secondary[k] = none;
 	for (; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 		struct vec3 seen[SCENE_MAX_LIGHTS];
@@ -258,24 +259,24 @@ static inline void pack_lit_by_program(const struct shade_arguments *a, const st
 		l = pack_keep_lit(&a->tables, list, p, lane, seen, kept, &is_lit);
 		if (!is_lit)
 			program_light_corners(a, &l->p, seen, run, l->lit);
-		pack_take_lit(l->lit, p->material->shade_model == GL_FLAT, lane, &lit);
+		pack_take_lit(l->lit, p->material->shade_model == GL_FLAT, lane, lit);
 	}
-	pack_lit_between(p, &lit, color, secondary);
 }
 
-/* Colours of fragments from their lit vertices, with the lights' visibility once lights have been queried. */
-static inline void pack_lit(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p,
-                            uint lanes, struct pack_kept *kept, struct program_run *run, struct vec4_16 *color,
-                            struct vec4_16 *secondary)
+/* Light vertices again, with the lights' visibility once lights have been queried.
+ * @return lit, which receives them; 0: they remain as they were lit first */
+static inline const struct pack_corners_lit *pack_lit_again(const struct shade_arguments *a,
+                                                            const struct pack_list *list, const struct pack *p,
+                                                            uint lanes, struct pack_kept *kept,
+                                                            struct program_run *run, struct pack_corners_lit *lit)
 {
-	if (stage_is_lit_by_program(a, p->material, 0)) {
-		pack_lit_by_program(a, list, p, lanes, kept, run, color, secondary);
-	} else if (a->n_slots) {
-		pack_between_relit(a, list, p, lanes, kept, color, secondary);
-	} else {
-		*color = pack_between(&a->tables, p, PACK_COLOR);
-		*secondary = pack_between(&a->tables, p, PACK_SECONDARY);
-	}
+	if (stage_is_lit_by_program(a, p->material, 0))
+		pack_light_again_by_program(a, list, p, lanes, kept, run, lit);
+	else if (a->n_slots)
+		pack_light_again(a, list, p, lanes, kept, lit);
+	else
+		return 0;
+	return lit;
 }
 
 /* point_weights_at for triangles, at the lanes' pixels. */
@@ -303,35 +304,6 @@ WIDE_VECTORS static inline void pack_weights_at(const struct tables *t, const st
 		weight[i] *= sum;
 }
 
-/* Pixel positions for planes: from clip_origin, y from the top; and w there. */
-struct pack_places {
-	packf x, y, w;
-};
-
-WIDE_VECTORS static inline struct pack_places pack_places(const struct pack *p)
-{
-	const float middle = 0.5f - clip_origin(p->view);
-	const struct pack_plane w_inv = pack_plane_through(&p->edges, p->w_inv);
-	struct pack_places at;
-
-	at.x = convert_float16(p->x) + middle;
-	at.y = convert_float16(p->row) + middle;
-	at.w = 1.0f / pack_plane_at(&w_inv, at.x, at.y);
-	return at;
-}
-
-/* program_set_by_planes for numbers n to m. row: values at the corners */
-WIDE_VECTORS static inline void pack_set_by_planes(const struct pack *p, const struct pack_places *at, packf (*row)[4],
-                                                   int n, int m, packf *to)
-{
-	for (int c = n; c <= m; c++) {
-		const packf over_w[3] = { row[0][c] * p->w_inv[0], row[1][c] * p->w_inv[1], row[2][c] * p->w_inv[2] };
-		const struct pack_plane plane = pack_plane_through(&p->edges, over_w);
-
-		to[c - n] = pack_plane_at(&plane, at->x, at->y) * at->w;
-	}
-}
-
 /* program_texcoords for all lanes. */
 WIDE_VECTORS static inline void pack_input_texcoords(const struct shade_arguments *a, const struct pack_list *list,
                                                      const struct pack *p, uint lanes, struct pack_kept *kept,
@@ -346,7 +318,7 @@ WIDE_VECTORS static inline void pack_input_texcoords(const struct shade_argument
 		if (!(inputs >> (SCENE_INPUT_TEXCOORD + unit) & 1))
 			continue;
 		pack_texcoords(a, list, p, lanes, first, i, kept, texcoord);
-		pack_set_by_planes(p, at, texcoord, 0, 3, &run->registers[4 * (SCENE_INPUT_TEXCOORD + unit)]);
+		pack_by_planes(p, at, texcoord, 0, 3, &run->registers[4 * (SCENE_INPUT_TEXCOORD + unit)]);
 	}
 }
 
@@ -372,51 +344,32 @@ WIDE_VECTORS static inline void pack_input_position(const struct tables *t, cons
 	to[3] = 1.0f / pack_weighted(t, p, PACK_CLIP, 3);
 }
 
-static inline void pack_set_input(struct pack_run *run, uint input, struct vec4_16 v)
-{
-	run->registers[4 * input] = v.x;
-	run->registers[4 * input + 1] = v.y;
-	run->registers[4 * input + 2] = v.z;
-	run->registers[4 * input + 3] = v.w;
-}
-
-/* program_colors_by_weights for all lanes. own_color, own_secondary: of the lanes that are fragments */
-WIDE_VECTORS static inline void pack_colors_by_weights(const struct tables *t, const struct pack *p, packi is_own,
-                                                       const struct vec4_16 *own_color,
-                                                       const struct vec4_16 *own_secondary, struct pack_run *run)
-{
-	const struct vec4_16 color = pack_between(t, p, PACK_COLOR), secondary = pack_between(t, p, PACK_SECONDARY);
-
-	pack_set_input(run, SCENE_INPUT_COLOR, v4_choose(is_own, *own_color, color));
-	pack_set_input(run, SCENE_INPUT_SECONDARY, v4_choose(is_own, *own_secondary, secondary));
-	pack_set_input(run, SCENE_INPUT_FOG, v4_16(0, 0, 0, 1));
-	run->registers[4 * SCENE_INPUT_FOG] = pack_weighted(t, p, PACK_NORMAL, 3);
-}
-
 /* program_colors_by_planes for all lanes. */
 WIDE_VECTORS static inline void pack_colors_by_planes(const struct shade_arguments *a, const struct pack_list *list,
                                                       const struct pack *p, uint lanes, struct pack_kept *kept,
-                                                      uint inputs, const struct pack_places *at, struct pack_run *run)
+                                                      uint inputs, const struct pack_places *at,
+                                                      const struct pack_corners_lit *again, struct pack_run *run)
 {
-	const packu side = as_uint16(pack_side(p) & 1);
-
 	for (uint input = SCENE_INPUT_COLOR; input <= SCENE_INPUT_FOG; input++) {
-		const packu four = input == SCENE_INPUT_COLOR     ? PACK_COLOR + side :
-		                   input == SCENE_INPUT_SECONDARY ? PACK_SECONDARY + side :
-		                                                    (packu)(PACK_NORMAL);
 		packf *to = &run->registers[4 * input], row[3][4];
 
 		if (!(inputs >> input & 1))
 			continue;
-		for (int k = 0; k < 3; k++)
-			pack_vertex(&a->tables, p, k, four, row[k]);
+		for (int k = 0; k < 3; k++) {
+			if (input == SCENE_INPUT_FOG)
+				pack_vertex(&a->tables, p, k, (packu)(PACK_NORMAL), row[k]);
+			else if (input == SCENE_INPUT_COLOR)
+				pack_corner_color(a, p, k, PACK_COLOR, again ? again->color : 0, row[k]);
+			else
+				pack_corner_color(a, p, k, PACK_SECONDARY, again ? again->secondary : 0, row[k]);
+		}
 		if (input != SCENE_INPUT_FOG && p->material->shade_model == GL_FLAT) {
 			for (int i = 0; i < 4; i++)
 				to[i] = row[2][i];
 			continue;
 		}
-		pack_cut_rows(a, list, p, lanes, kept, row);
-		pack_set_by_planes(p, at, row, input == SCENE_INPUT_FOG ? 3 : 0, 3, to);
+		pack_cut_rows(a, list, p, lanes, kept, again != 0, row);
+		pack_by_planes(p, at, row, input == SCENE_INPUT_FOG ? 3 : 0, 3, to);
 	}
 	run->registers[4 * SCENE_INPUT_FOG + 3] = 1.0f;
 }
@@ -491,9 +444,12 @@ static inline void pack_fixed(const struct shade_arguments *a, const struct pack
 {
 	struct vec4_16 lit, secondary, color;
 	struct pack_texturing texturing;
+	struct pack_corners_lit corners;
+	const struct pack_corners_lit *again;
 
 	pack_texture(a, list, p, lanes, kept, &texturing);
-	pack_lit(a, list, p, lanes, kept, &runs->vertices, &lit, &secondary);
+	again = pack_lit_again(a, list, p, lanes, kept, &runs->vertices, &corners);
+	pack_lit_by_planes(a, list, p, lanes, kept, again, &lit, &secondary);
 	color = pack_finish(&a->tables, p, &texturing, &lit, &secondary);
 	pack_store_program(a, list, p, lanes, &color);
 }
@@ -510,20 +466,19 @@ static inline void pack_run_program(const struct shade_arguments *a, const struc
 		   colors = inputs & (1 << SCENE_INPUT_COLOR | 1 << SCENE_INPUT_SECONDARY | 1 << SCENE_INPUT_FOG);
 	const packi is_own = pack_mask(own);
 	struct pack_run *run = &runs->fragments;
-	struct vec4_16 color, secondary;
+	const struct pack_corners_lit *again;
+	struct pack_corners_lit corners;
+	struct vec4_16 color;
 	struct pack_places at;
 	const packf *ends;
 
 	pack_begin(a, list, p, program, own, run);
-	if (colors && a->n_slots)
-		pack_lit(a, list, p, own, kept, &runs->vertices, &color, &secondary);
+	again = colors ? pack_lit_again(a, list, p, run->lanes, kept, &runs->vertices, &corners) : 0;
 	if (program->head->across)
 		pack_spread(&a->tables, a->height, is_own, p);
 	at = pack_places(p);
-	if (colors && a->n_slots)
-		pack_colors_by_weights(&a->tables, p, is_own, &color, &secondary, run);
-	else if (colors)
-		pack_colors_by_planes(a, list, p, run->lanes, kept, inputs, &at, run);
+	if (colors)
+		pack_colors_by_planes(a, list, p, run->lanes, kept, inputs, &at, again, run);
 	if (colors && p->material->lighting)
 		run->registers[4 * SCENE_INPUT_SECONDARY + 3] = 1.0f;
 	if (inputs >> SCENE_INPUT_POSITION & 1)

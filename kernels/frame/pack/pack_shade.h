@@ -103,25 +103,21 @@ static inline void pack_take_lit(const struct lit *lit, int flat, uint lane, str
 	}
 }
 
-/* point_lit_between for all lanes. */
-static inline void pack_lit_between(const struct pack *p, const struct pack_corners_lit *lit, struct vec4_16 *color,
-                                    struct vec4_16 *secondary)
+/* pack_between of vertices that were lit again. lit: their colours */
+WIDE_VECTORS static inline struct vec4_16 pack_between_again(const struct pack *p, const struct vec4_16 *lit)
 {
-	const int flat = p->material->shade_model == GL_FLAT;
-
-	*color = flat ? lit->color[2] : v4_between(lit->color[0], lit->color[1], lit->color[2], p->weight);
-	*secondary = flat ? lit->secondary[2] :
-	                    v4_between(lit->secondary[0], lit->secondary[1], lit->secondary[2], p->weight);
+	return p->material->shade_model == GL_FLAT ? lit[2] : v4_between(lit[0], lit[1], lit[2], p->weight);
 }
 
-/* Colours with the lights' visibility: each lane's triangle is lit again, as in setup_keep_lit. */
-static inline void pack_between_relit(const struct shade_arguments *a, const struct pack_list *list,
-                                      const struct pack *p, uint lanes, struct pack_kept *kept, struct vec4_16 *color,
-                                      struct vec4_16 *secondary)
+/* Light each lane's triangle again with the lights' visibility, as in setup_keep_lit. */
+static inline void pack_light_again(const struct shade_arguments *a, const struct pack_list *list,
+                                    const struct pack *p, uint lanes, struct pack_kept *kept,
+                                    struct pack_corners_lit *lit)
 {
 	const struct vec4_16 none = v4_16(0, 0, 0, 0);
-	struct pack_corners_lit lit = { { none, none, none }, { none, none, none } };
 
+	for (int k = 0; k < 3; k++)
+		lit->color[k] = lit->secondary[k] = none;
 	for (; lanes; lanes &= lanes - 1) {
 		const uint lane = popcount((lanes & -lanes) - 1);
 		struct vec3 seen[SCENE_MAX_LIGHTS];
@@ -132,9 +128,8 @@ static inline void pack_between_relit(const struct shade_arguments *a, const str
 		l = pack_keep_lit(&a->tables, list, p, lane, seen, kept, &is_lit);
 		if (!is_lit)
 			point_light_corners(&a->tables, &l->p, seen, l->lit);
-		pack_take_lit(l->lit, p->material->shade_model == GL_FLAT, lane, &lit);
+		pack_take_lit(l->lit, p->material->shade_model == GL_FLAT, lane, lit);
 	}
-	pack_lit_between(p, &lit, color, secondary);
 }
 
 /* Texture samples at the fragments, and fog. */
@@ -173,16 +168,109 @@ WIDE_VECTORS static inline packf pack_fog(const struct tables *t, const struct p
 	return fog_linear(m, c);
 }
 
-/* Replace the numbers at the lanes' vertices by those at their parts' corners. row: [3][4] */
+/*
+ * Replace the numbers at the lanes' vertices by those at their parts' corners. row: [3][4]. differ: lanes of one part
+ * may have different numbers
+ */
 WIDE_VECTORS static inline void pack_cut_rows(const struct shade_arguments *a, const struct pack_list *list,
-                                              const struct pack *p, uint lanes, struct pack_kept *kept, packf (*row)[4])
+                                              const struct pack *p, uint lanes, struct pack_kept *kept, int differ,
+                                              packf (*row)[4])
 {
 	for (uint left = lanes & pack_bits(p->cut), same; left; left &= ~same) {
 		const uint lane = popcount((left & -left) - 1);
 
-		same = pack_same_part(list, p, left);
+		same = differ ? 1u << lane : pack_same_part(list, p, left);
 		pack_cut_row(pack_polygon(a, list, p, lane, kept), lane, pack_mask(same), p, row);
 	}
+}
+
+/* Pixel positions for planes: from clip_origin, y from the top; and w there. */
+struct pack_places {
+	packf x, y, w;
+};
+
+WIDE_VECTORS static inline struct pack_places pack_places(const struct pack *p)
+{
+	const float middle = 0.5f - clip_origin(p->view);
+	const struct pack_plane w_inv = pack_plane_through(&p->edges, p->w_inv);
+	struct pack_places at;
+
+	at.x = convert_float16(p->x) + middle;
+	at.y = convert_float16(p->row) + middle;
+	at.w = 1.0f / pack_plane_at(&w_inv, at.x, at.y);
+	return at;
+}
+
+/* Numbers n to m of rows, interpolated by planes. row: values at the corners */
+WIDE_VECTORS static inline void pack_by_planes(const struct pack *p, const struct pack_places *at, packf (*row)[4],
+                                               int n, int m, packf *to)
+{
+	for (int c = n; c <= m; c++) {
+		const packf over_w[3] = { row[0][c] * p->w_inv[0], row[1][c] * p->w_inv[1], row[2][c] * p->w_inv[2] };
+		const struct pack_plane plane = pack_plane_through(&p->edges, over_w);
+
+		to[c - n] = pack_plane_at(&plane, at->x, at->y) * at->w;
+	}
+}
+
+/* A colour of the lanes' corners k, as pack_color_by_planes takes it. */
+WIDE_VECTORS static inline void pack_corner_color(const struct shade_arguments *a, const struct pack *p, int k,
+                                                  uint four, const struct vec4_16 *again, packf *row)
+{
+	if (!again) {
+		pack_vertex(&a->tables, p, k, four + as_uint16(pack_side(p) & 1), row);
+		return;
+	}
+	row[0] = again[k].x;
+	row[1] = again[k].y;
+	row[2] = again[k].z;
+	row[3] = again[k].w;
+}
+
+/* A bit for each lane whose primary or secondary colour llvmpipe interpolates. color: SCENE_HAS_COLOR .. */
+static inline packi pack_interpolated(const struct pack *p, uint color)
+{
+	if (p->material->shade_model == GL_FLAT || p->material->lighting || p->material->vertex_program)
+		return point_interpolated(p->material, 0) & color ? -1 : 0;
+	return (p->attributes & color * GEOMETRY_GIVEN) != 0;
+}
+
+/*
+ * A colour between lit vertices, by planes where it is interpolated. four: PACK_COLOR or PACK_SECONDARY. again: this
+ * colour of vertices that were lit again; 0: as they were lit first
+ */
+WIDE_VECTORS static inline struct vec4_16 pack_color_by_planes(const struct shade_arguments *a,
+                                                               const struct pack_list *list, const struct pack *p,
+                                                               uint lanes, struct pack_kept *kept, uint four,
+                                                               const struct vec4_16 *again)
+{
+	const packi by_planes = pack_interpolated(p, four == PACK_COLOR ? SCENE_HAS_COLOR : SCENE_HAS_SECONDARY);
+	struct vec4_16 color, between;
+	packf row[3][4], at_pixel[4];
+	struct pack_places at;
+
+	if (any_pack(~by_planes))
+		between = again ? pack_between_again(p, again) : pack_between(&a->tables, p, four);
+	if (!any_pack(by_planes))
+		return between;
+	at = pack_places(p);
+	for (int k = 0; k < 3; k++)
+		pack_corner_color(a, p, k, four, again, row[k]);
+	pack_cut_rows(a, list, p, lanes, kept, again != 0, row);
+	pack_by_planes(p, &at, row, 0, 3, at_pixel);
+	color = v4_16(at_pixel[0], at_pixel[1], at_pixel[2], at_pixel[3]);
+	return any_pack(~by_planes) ? v4_choose(by_planes, color, between) : color;
+}
+
+/* point_lit_by_planes for all lanes; secondary colours only if they are used. */
+WIDE_VECTORS static inline void pack_lit_by_planes(const struct shade_arguments *a, const struct pack_list *list,
+                                                   const struct pack *p, uint lanes, struct pack_kept *kept,
+                                                   const struct pack_corners_lit *again, struct vec4_16 *color,
+                                                   struct vec4_16 *secondary)
+{
+	*color = *secondary = pack_color_by_planes(a, list, p, lanes, kept, PACK_COLOR, again ? again->color : 0);
+	if (p->material->color_sum || (p->material->lighting && p->material->separate_specular))
+		*secondary = pack_color_by_planes(a, list, p, lanes, kept, PACK_SECONDARY, again ? again->secondary : 0);
 }
 
 /* Texture coordinates of the material's unit i at the corners. first: pack_texcoord_first; texcoord: [3][4] */
@@ -192,7 +280,7 @@ WIDE_VECTORS static inline void pack_texcoords(const struct shade_arguments *a, 
 {
 	for (int k = 0; k < 3; k++)
 		pack_row(a->tables.texcoords, p, first + p->number[k] * p->material->unit_count + i, texcoord[k]);
-	pack_cut_rows(a, list, p, lanes, kept, texcoord);
+	pack_cut_rows(a, list, p, lanes, kept, 0, texcoord);
 }
 
 WIDE_VECTORS static inline void pack_texture(const struct shade_arguments *a, const struct pack_list *list,
@@ -399,6 +487,7 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 	__global const struct geometry *g = &t->geometries[list->instance[popcount((lanes & -lanes) - 1)]];
 	__global const struct scene_material *m = &t->materials[g->material];
 	struct vec4_16 from_vertices, secondary, color, direct, albedo;
+	struct pack_corners_lit again;
 	struct pack_texturing texturing;
 	struct pack *p = &kept->last;
 	packu lights;
@@ -410,9 +499,10 @@ static inline uint pack_shade(const struct shade_arguments *a, const struct pack
 		return 0;
 	pack_texture(a, list, p, lanes, kept, &texturing);
 	if (a->n_slots && !m->surface.relit) {
-		pack_between_relit(a, list, p, lanes, kept, &from_vertices, &secondary);
+		pack_light_again(a, list, p, lanes, kept, &again);
+		pack_lit_by_planes(a, list, p, lanes, kept, &again, &from_vertices, &secondary);
 	} else {
-		pack_lit_from_vertices(t, p, &from_vertices, &secondary);
+		pack_lit_by_planes(a, list, p, lanes, kept, 0, &from_vertices, &secondary);
 	}
 	color = pack_finish(t, p, &texturing, &from_vertices, &secondary);
 	color = v4_16(pixel_nudge(color.x), pixel_nudge(color.y), pixel_nudge(color.z), color.w);

@@ -184,6 +184,7 @@ static inline struct vec3_16 color_of(const struct shade_arguments *s, const str
                                        struct vec4_16 *lit)
 {
 	struct vec4_16 secondary, color, relit;
+	struct pack_corners_lit again;
 	uint dimmed = 0;
 	packu lights;
 
@@ -193,7 +194,9 @@ static inline struct vec3_16 color_of(const struct shade_arguments *s, const str
 	pack_lit_from_vertices(&s->tables, &q->p, lit, &secondary);
 	color = pack_finish(&s->tables, &q->p, texturing, lit, &secondary);
 	if (dimmed) {
-		pack_between_relit(s, &q->list, &q->p, dimmed, kept, &relit, &secondary);
+		pack_light_again(s, &q->list, &q->p, dimmed, kept, &again);
+		relit = pack_between_again(&q->p, again.color);
+		secondary = pack_between_again(&q->p, again.secondary);
 		relit = pack_finish(&s->tables, &q->p, texturing, &relit, &secondary);
 		color = v4_choose(pack_mask(dimmed), relit, color);
 	}

@@ -149,11 +149,12 @@ static inline void plain_shade(const struct plain_arguments *a, const struct sha
 	const struct tables *t = &a->tables;
 	struct pack *p = &kept->last;
 	__global const struct geometry *g = &t->geometries[row->list.instance[popcount((lanes & -lanes) - 1)]];
+	struct pack_corners_lit again;
 	struct pack_texturing texturing;
 	struct vec4_16 lit, secondary;
 
 	pack_texture(s, &row->list, p, lanes, kept, &texturing);
-	pack_lit_from_vertices(t, p, &lit, &secondary);
+	pack_lit_by_planes(s, &row->list, p, lanes, kept, 0, &lit, &secondary);
 	if (p->material->fragment_program) {
 		plain_take_color(a->shaded[row->base].gl, 4, lanes, &out->gl);
 	} else {
@@ -171,7 +172,8 @@ static inline void plain_shade(const struct plain_arguments *a, const struct sha
 	if (stage_is_by_program(s, p->material, g->flags)) {
 		plain_take_color(a->shaded[row->base].shadowed, 3, lanes & row->dimmed, &out->shadowed);
 	} else if (lanes & row->dimmed && !p->material->surface.relit) {
-		pack_between_relit(s, &row->list, p, lanes & row->dimmed, kept, &lit, &secondary);
+		pack_light_again(s, &row->list, p, lanes & row->dimmed, kept, &again);
+		pack_lit_by_planes(s, &row->list, p, lanes & row->dimmed, kept, &again, &lit, &secondary);
 		lit = pack_finish(t, p, &texturing, &lit, &secondary);
 		lit = v4_16(pixel_nudge(lit.x), pixel_nudge(lit.y), pixel_nudge(lit.z), out->gl.w);
 		out->shadowed = v4_choose(pack_mask(row->dimmed), lit, out->gl);

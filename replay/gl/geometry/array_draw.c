@@ -103,7 +103,8 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, struct gls_mesh *kept,
                 float point_size)
 {
-	struct gls_op_mesh op = { .mesh = kept, .n_draws = 1, .first_provokes = st->a.lighting.first_provokes };
+	struct gls_op_mesh op = { .mesh = kept, .n_draws = 1, .given = kept->mesh.attributes,
+		                  .first_provokes = st->a.lighting.first_provokes };
 
 	if (st->list) {
 		atomic_fetch_add(&kept->refs, 1);
@@ -119,13 +120,16 @@ static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh,
 		               &(struct gls_event){ .attribs = &a,
 		                                    .mesh = mesh,
 		                                    .values = (const float(*)[4])a.current.attribute,
+		                                    .given = mesh->mesh.attributes,
 		                                    .command = x->command,
 		                                    .call_number = x->call->number });
 		st->dirty |= GLS_DIRTY_MATERIAL;
 		return;
 	}
 	gls_waiting_take(st, (int)st->waiting.stored);
-	gls_draw_mesh(x, st, mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
+	gls_draw_mesh(x, st, mesh,
+	              &(struct gls_mesh_draw){ (const float(*)[4])st->a.current.attribute, mesh->mesh.attributes, x->command,
+	                                     x->call->number });
 }
 
 /*

@@ -38,6 +38,7 @@ struct gls_op_mesh {
 	uint32_t before, after; /* bit sets of attributes to set before the first vertex, and after the last: 1 << attribute */
 	const float (*before_values)[4], (*after_values)[4]; /* in ascending order of attribute */
 	uint32_t n_draws;
+	uint32_t given;          /* as in gls_event */
 	uint32_t first_provokes; /* convention used to split it */
 };
 

@@ -62,9 +62,11 @@ static void collect_batch(struct gls_exec *assembler, const struct gls_list *lis
 	*batch = (struct batch){ .stop = first };
 	for (uint32_t i = first; i < last && fits_batch(assembler, &list->ops[i]); i++) {
 		const struct gls_op *op = &list->ops[i];
-		uint32_t n = g->n_vertices, touched = g->touched;
+		uint32_t n = g->n_vertices, touched = g->touched, given = g->given;
+		const int open = assembler->st->begin_mode != 0;
 		gls_op_unpack(op, args, &c);
 		assembler->dispatch(assembler, &c, op->command, NULL);
+		g->given = open ? g->given : given; /* in a list, attributes outside Begin and End stay apart */
 		if (n == 0 && g->n_vertices)
 			batch->known = touched;
 		batch->set |= touched | g->touched;
@@ -91,7 +93,8 @@ static const float (*keep_values(struct gls_list *list, uint32_t mask, const flo
 static int keep_batch(struct gls_exec *x, struct gls_exec *assembler, struct gls_list *list, const struct batch *batch)
 {
 	struct gls_geometry *g = &assembler->pending.geometry;
-	struct gls_op_mesh op = { .n_draws = g->n_draws, .first_provokes = assembler->st->a.lighting.first_provokes };
+	struct gls_op_mesh op = { .n_draws = g->n_draws, .given = g->given,
+		                  .first_provokes = assembler->st->a.lighting.first_provokes };
 
 	op.before = batch->known & ~g->varying;
 	op.after = batch->set;

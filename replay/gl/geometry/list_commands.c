@@ -120,7 +120,9 @@ static void run_mesh(struct gls_exec *x, struct gls_state *st, const struct gls_
 		gls_unsupported(x, "lists compiled with another glProvokingVertex than they are called with");
 	st->waiting.colored = op->before >> GLS_ATTR_COLOR & 1;
 	if (op->mesh)
-		gls_draw_mesh(x, st, op->mesh, (const float (*)[4])st->a.current.attribute, x->command, x->call->number);
+		gls_draw_mesh(x, st, op->mesh,
+		              &(struct gls_mesh_draw){ (const float(*)[4])st->a.current.attribute, op->given, x->command,
+		                                     x->call->number });
 	st->waiting.colored = 0;
 	set_attributes(x, st, op->after, op->after_values);
 	gls_waiting_current(st);

@@ -28,7 +28,9 @@ void gls_draw_pending(struct gls_exec *x)
 		x->command = x->pending.command; /* unsupported features are attributed to the call that drew, not to
 		                                    the current one */
 		if (mesh)
-			gls_draw_mesh(x, x->st, mesh, (const float (*)[4])g->constant, x->pending.command, x->pending.call);
+			gls_draw_mesh(x, x->st, mesh,
+			              &(struct gls_mesh_draw){ (const float(*)[4])g->constant, g->given, x->pending.command,
+			                                     x->pending.call });
 		x->drawn_list = list;
 		x->command = command;
 		gls_mesh_release(mesh);
@@ -45,13 +47,22 @@ void gls_flush(struct gls_exec *x)
 
 /* ---- attributes ---- */
 
+/*
+ * Most stored vertices that attributes set outside Begin and End still join (Mesa 22.3.6,
+ * vbo_exec_wrap_upgrade_vertex): the vertices after them are then given these attributes.
+ */
+#define MOST_GIVEN_LATER 8
+
 void gls_set_attribute(struct gls_exec *x, struct gls_state *st, unsigned attribute, const float value[4])
 {
 	float *current = st->a.current.attribute[attribute];
 	const int is_color = attribute == GLS_ATTR_COLOR, recolors = is_color && memcmp(current, value, 16) != 0;
+	struct gls_geometry *g = &x->pending.geometry;
 
 	memcpy(current, value, 16);
-	x->pending.geometry.touched |= 1u << attribute;
+	g->touched |= 1u << attribute;
+	if (st->begin_mode || (g->n_vertices && g->n_vertices <= MOST_GIVEN_LATER))
+		g->given |= 1u << attribute;
 	gls_waiting_touch(st, is_color, recolors);
 	if (is_color && st->a.lighting.color_material && !gls_is_mesa(st))
 		gls_color_changed(st);

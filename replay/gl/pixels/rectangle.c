@@ -68,8 +68,13 @@ static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rect
 	st->dirty = GLS_DIRTY_ALL;
 	if (mesh)
 		gls_draw_event(x, st,
-		               &(struct gls_event){ a, mesh, (const float(*)[4])values, x->command, x->call->number,
-		                                    &rectangle, image, 0 });
+		               &(struct gls_event){ .attribs = a,
+		                                    .mesh = mesh,
+		                                    .values = (const float(*)[4])values,
+		                                    .command = x->command,
+		                                    .call_number = x->call->number,
+		                                    .rectangle = &rectangle,
+		                                    .image = image });
 	st->dirty = GLS_DIRTY_ALL;
 	gls_mesh_release(mesh);
 	gls_texture_image_release(image);

@@ -51,11 +51,16 @@ void gls_draw_event(struct gls_exec *x, struct gls_state *st, const struct gls_e
 	}
 }
 
-void gls_draw_mesh(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const float (*values)[4],
-                   uint32_t command, uint64_t call_number)
+void gls_draw_mesh(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, const struct gls_mesh_draw *draw)
 {
 	if (gls_is_drawn(x, st))
-		gls_draw_event(x, st, &(struct gls_event){ &st->a, mesh, values, command, call_number, NULL, NULL, 0 });
+		gls_draw_event(x, st,
+		               &(struct gls_event){ .attribs = &st->a,
+		                                    .mesh = mesh,
+		                                    .values = draw->values,
+		                                    .given = draw->given,
+		                                    .command = draw->command,
+		                                    .call_number = draw->call_number });
 }
 
 void gls_draw_clear(struct gls_exec *x, struct gls_state *st, uint32_t buffers)

@@ -86,7 +86,6 @@ void prepare_layout(const struct scene_mesh *mesh, uint32_t base, struct geometr
 {
 	uint32_t n = mesh->vertex_count, at = base;
 
-	g->attributes = mesh->attributes;
 	g->position = at;
 	at += 4 * n;
 	g->normal = at;
@@ -302,6 +301,7 @@ static void add_instance(const struct scene *scene, struct prepared *p, struct s
 	g->away = distance_of_origin(from->modelview);
 	normal_matrix(from->modelview, m->rescale_normal && !m->normalize, g->normal_matrix);
 	prepare_layout(mesh, 0, g);
+	g->attributes = mesh->attributes | from->given * GEOMETRY_GIVEN;
 	g->material = from->material;
 	g->view = segment->view;
 	g->current = from->current;
