@@ -8,6 +8,7 @@
 #include <xxhash.h>
 
 #include "base/err.h"
+#include "base/hash.h"
 #include "base/options.h"
 #include "look/camera/camera.h"
 #include "look/camera/lens.h"
@@ -372,27 +373,10 @@ static const struct options_table table = {
 
 /* --- The name of the settings ------------------------------------------------------------------------------------ */
 
-static int hash_file(XXH3_state_t *state, const char *path)
-{
-	FILE *file = fopen(path, "rb");
-	char piece[4096];
-	size_t n;
-	int err = 0;
-
-	if (!file)
-		return err_report(ERR_INPUT, path, "%s", strerror(errno));
-	while ((n = fread(piece, 1, sizeof(piece), file)))
-		XXH3_128bits_update(state, piece, n);
-	if (ferror(file))
-		err = err_report(ERR_SYSTEM, path, "cannot be read: %s", strerror(errno));
-	fclose(file);
-	return err;
-}
-
 static int hash_value(XXH3_state_t *state, const struct options_row *row, const char *value)
 {
 	if (row->kind == PICTURE_FILE && strcmp(value, "auto") != 0)
-		return hash_file(state, value);
+		return hash_file(value, UINT64_MAX, state);
 	XXH3_128bits_update(state, value, strlen(value) + 1);
 	return 0;
 }
