@@ -12,6 +12,12 @@ import subprocess
 
 import more_programs
 
+# Models that Inventor's demos are given, and input that makes them draw again.
+MODELS = "/usr/share/inventor/data/models"
+DEMO_MODELS = {
+    "gview": (f"{MODELS}/bird.iv", ),
+    "qmorf": (f"{MODELS}/CyberHeads/josie.iv", f"{MODELS}/CyberHeads/paul.iv")
+}
 WINDMILL = "/usr/share/doc/inventor-demo/src/apps/examples/Mentor/01.1.Windmill.iv"
 
 
@@ -94,8 +100,8 @@ def sweep():
     for name in installed("inventor-demo", "/usr/lib/inventor"):
         if "." not in name:
             programs.append(
-                Program(f"iv-{name}", "inventor-demo", (f"/usr/lib/inventor/{name}", ), seconds=10, ref_every=1,
-                        group="Inventor"))
+                Program(f"iv-{name}", "inventor-demo", (f"/usr/lib/inventor/{name}", *DEMO_MODELS.get(name, ())),
+                        keys=more_programs.TURN, ref_every=1, group="Inventor"))
     programs.append(Program("iv-ivview", "inventor-clients", ("ivview", WINDMILL), seconds=10,
                             ref_every=1, group="Inventor"))
     for name in OSG_EXAMPLES:
