@@ -16,9 +16,9 @@
 
 #include "base/beside.h"
 #include "base/err.h"
-#include "base/folder.h"
 #include "base/options.h"
 #include "base/verbs.h"
+#include "capture/earlier.h"
 #include "capture/executable.h"
 #include "capture/key.h"
 #include "capture/press.h"
@@ -214,39 +214,6 @@ static int find_recorder(char *out, size_t size)
 	return rc;
 }
 
-/* Remove an earlier recording, and check before the start whether the folder is writable. */
-static int clear_output(const struct options *o)
-{
-	char path[PATH_MAX];
-	struct stat st;
-	int fd;
-
-	if (stat(o->trace, &st) == 0 && !S_ISREG(st.st_mode))
-		return err_report(ERR_SYSTEM, o->trace, "exists and is not a file");
-	if (folder_make_for(o->trace))
-		return ERR_SYSTEM;
-	if (unlink(o->trace) && errno != ENOENT)
-		return err_report(ERR_SYSTEM, o->trace, "cannot replace: %s", strerror(errno));
-	fd = open(o->trace, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-	if (fd < 0)
-		return err_report(ERR_SYSTEM, o->trace, "cannot write: %s", strerror(errno));
-	close(fd);
-	unlink(o->trace);
-	sidecar_name(path, sizeof(path), o->trace, ".ref");
-	unlink(path);
-	for (int i = 1;; i++) { /* further processes of an earlier recording */
-		char suffix[32];
-
-		snprintf(suffix, sizeof(suffix), ".%d.ref", i);
-		sidecar_name(path, sizeof(path), o->trace, suffix);
-		unlink(path);
-		snprintf(suffix, sizeof(suffix), ".%d.trace", i);
-		sidecar_name(path, sizeof(path), o->trace, suffix);
-		if (unlink(path))
-			return 0;
-	}
-}
-
 /* The statistics are in an anonymous file, which the program opens through our process. Nothing is left behind. */
 struct figures {
 	struct recorder_stats *stats;
@@ -338,19 +305,33 @@ static int was_told_to_quit(const struct recorder_stats *stats)
 	return 0;
 }
 
-/* Wait for the program, and watch it while it draws nothing; kill it some time after the recorder has ended it. */
-static int wait_for_child(const struct recorder_stats *stats, struct watching *watching)
+/* 1 once a recording has calls, or at least their file's header. */
+static int has_begun(const char *trace)
+{
+	struct stat st;
+
+	return stat(trace, &st) == 0 && st.st_size > 0;
+}
+
+/*
+ * Wait for the program, and watch it while it draws nothing; kill it some time after the recorder has ended it. Once it
+ * has begun a recording, remove the earlier one.
+ */
+static int wait_for_child(const char *trace, const struct recorder_stats *stats, struct watching *watching)
 {
 	struct itimerval tick = { { 0, 1000000 / TICKS_A_SECOND }, { 0, 1000000 / TICKS_A_SECOND } },
 			 off = { { 0, 0 }, { 0, 0 } };
-	int status = 0, ticks = 0;
+	int status = 0, ticks = 0, begun = 0;
 
 	setitimer(ITIMER_REAL, &tick, NULL);
-	while (waitpid((pid_t)child_pid, &status, 0) < 0 && errno == EINTR)
+	while (waitpid((pid_t)child_pid, &status, 0) < 0 && errno == EINTR) {
+		if (!begun && (begun = has_begun(trace)))
+			earlier_remove(trace);
 		if (!stats->n_processes)
 			watching_look((pid_t)child_pid, watching);
 		else if (was_told_to_quit(stats) && ++ticks == PATIENCE_S * TICKS_A_SECOND)
 			kill((pid_t)child_pid, SIGKILL);
+	}
 	setitimer(ITIMER_REAL, &off, NULL);
 	return status;
 }
@@ -401,7 +382,7 @@ static int run_program(const struct options *o, const char *recorder, const stru
 	close(pipe_fds[0]);
 	if (!error && o->start_key)
 		watcher = key_watch(o->start_key, SIGUSR2);
-	status = wait_for_child(figures->stats, watching);
+	status = wait_for_child(o->trace, figures->stats, watching);
 	child_pid = 0;
 	key_forget(watcher);
 	for (int i = 0; i < N_FORWARDED; i++)
@@ -455,12 +436,11 @@ static int check_class(const char *program, const char *recorder)
 
 /* No recorder has reported. As exit_code, but never success without a recording. */
 static int explain_nothing(const struct options *o, const struct recorder_stats *stats, const struct watching *watching,
-                           int status)
+                           int is_recorded, int status)
 {
 	const int code = exit_code(stats, status);
-	struct stat st;
 
-	if (stat(o->trace, &st) || !st.st_size) {
+	if (!is_recorded) {
 		summary_explain_nothing(o->program[0], stats, watching);
 		return code ? code : ERR_SYSTEM;
 	}
@@ -474,7 +454,7 @@ static int record(int argc, char **argv, struct options *o)
 	struct watching watching = { 0 };
 	char recorder[PATH_MAX];
 	struct key_code key;
-	int status, rc = parse(argc, argv, o);
+	int status, is_recorded, rc = parse(argc, argv, o);
 
 	if (rc)
 		return rc > 0 ? 0 : -rc;
@@ -485,17 +465,24 @@ static int record(int argc, char **argv, struct options *o)
 	                     &o->press_plan)))
 		return -rc;
 	if ((rc = find_recorder(recorder, sizeof(recorder))) || (rc = check_class(o->program[0], recorder)) ||
-	    (rc = clear_output(o)) || (rc = make_figures(&figures)))
+	    (rc = make_figures(&figures)))
 		return -rc;
+	if ((rc = earlier_set_aside(o->trace)))
+		goto done;
 	shared = figures.stats;
 	status = run_program(o, recorder, &figures, &watching);
-	if (status < 0) {
+	if (status < 0)
 		rc = err_report(ERR_SYSTEM, o->program[0], "cannot start: %s", strerror(errno));
+	is_recorded = has_begun(o->trace);
+	if (is_recorded)
+		earlier_remove(o->trace);
+	else
+		earlier_put_back(o->trace);
+	if (rc)
 		goto done;
-	}
 	summary_print(figures.stats);
 	rc = figures.stats->n_processes ? exit_code(figures.stats, status) :
-	                                  explain_nothing(o, figures.stats, &watching, status);
+	                                  explain_nothing(o, figures.stats, &watching, is_recorded, status);
 	if (!rc && o->press.n)
 		rc = check_keys(o, figures.stats);
 done:

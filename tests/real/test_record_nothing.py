@@ -115,4 +115,22 @@ if without:
     done = on_display(RELUME, "record", "-o", SCRATCH / "without.trace", "--", without)
     check("without.trace: the program asked for OpenGL but made no context, so it drew nothing" in done.stderr,
           f"no context: {done.stderr}")
+
+# An earlier recording of that name stays until there is a new one, and a file that is none is not replaced.
+old = SCRATCH / "old.trace"
+files = [old, old.with_suffix(".ref"), SCRATCH / "old.1.trace"]
+for file in files:
+    file.write_bytes(b"at of " + file.name.encode())
+for what, program in (("a program that does not exist", "/no/program"), ("one without OpenGL", "true")):
+    done = on_display(RELUME, "record", "-o", old, "--", program)
+    check(done.returncode != 0 and all(file.read_bytes() == b"at of " + file.name.encode() for file in files) and
+          not list(SCRATCH.glob("old*.earlier")), f"{what}: the earlier recording is kept: {done.stderr}")
+done = on_display(RELUME, "record", "--quit-after", "3", "-o", old, "--", PROGRAM)
+check(done.returncode == 0 and "\nframes      3\n" in relume("info", old).stdout and
+      sorted(path.name for path in SCRATCH.glob("old.*")) == ["old.trace"], f"the new recording replaces it: {done.stderr}")
+copy = SCRATCH / "program"
+shutil.copy(PROGRAM, copy)
+done = on_display(RELUME, "record", "-o", copy, "--", copy)
+check(done.returncode == 2 and "program: exists and is no recording; give the new recording another name" in done.stderr
+      and copy.read_bytes() == PROGRAM.read_bytes(), f"a program as the output: exit code {done.returncode}: {done.stderr}")
 finish()
