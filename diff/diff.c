@@ -273,16 +273,42 @@ static int open_all(struct options *o, const struct options_line *line, struct s
 	return err;
 }
 
+/* Give a single picture without a number that of the only frame it can be compared with. */
+static int number_single(const struct options *o, struct set *single, const struct set *other)
+{
+	struct set_entry *picture = single->is_single ? single->entries : NULL;
+	const struct set_entry *same = picture ? set_find(other, picture->frame) : NULL;
+	size_t n = 0;
+
+	if (!picture || !picture->name || !other->n_entries || (same && same->name))
+		return 0;
+	for (size_t i = 0; i < other->n_entries; i++)
+		if (frame_list_contains(&o->frames, other->entries[i].frame)) {
+			picture->frame = other->entries[i].frame;
+			n++;
+		}
+	if (n == 1)
+		return 0;
+	return err_report(ERR_USAGE, picture->path,
+	                  "has no frame number, and %s has %zu frames to compare it with; name one by -f, or put its number "
+	                  "into the file's name",
+	                  other->name, n);
+}
+
 static int match_all(const struct options *o, struct set *ref, struct set *traced)
 {
 	struct set *const sets[] = { ref, traced };
+	int err;
 
 	/* Two single images are a pair, whatever their names. */
 	if (ref->is_single && traced->is_single) {
 		ref->entries[0].frame = traced->entries[0].frame;
 		return 0;
 	}
-	return set_match(sets, 2, o->baseline || !o->reference);
+	err = set_match(sets, 2, o->baseline || !o->reference);
+	if (!err)
+		err = number_single(o, traced, ref);
+	return err ? err : number_single(o, ref, traced);
 }
 
 static int write_all(const struct options *o, const struct picture_sources *from)

@@ -254,6 +254,11 @@ class Diff(unittest.TestCase):
         (self.dir / "t.ref").write_bytes(data)
         (self.dir / "t.trace").write_bytes(b"")
         self.diff(self.dir / "t.ref", self.traced, expect=0)
+        write_png(self.dir / "two.png", picture(2))
+        self.assertIn("two.png: has no frame number, and", self.diff(self.dir / "t.ref", self.dir / "two.png",
+                                                                     expect=2).stderr)
+        self.diff(self.dir / "t.ref", self.dir / "two.png", "-f", "2", expect=0)
+        self.diff(self.dir / "t.ref", self.dir / "two.png", "-f", "1", expect=1)
         done = self.diff(self.dir / "t.trace", self.traced, "--table", expect=0)
         self.assertIn("not measured: R5 depth: the frame has no channel", done.stdout)
         (self.dir / "t.ref").write_bytes(data[:-10000])  # truncates the last frame's colour, too
