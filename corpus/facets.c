@@ -1,9 +1,10 @@
 /*
  * A ball and a die above a floor, lit by a lamp. The ball is made of flat faces, as in many programs that save normals:
  *
- *   --by faces  each face has its own normal (default)
- *   --by flat   glShadeModel(GL_FLAT)
- *   --by round  normals of a round ball
+ *   --by faces      each face has its own normal (default)
+ *   --by clockwise  the same, with faces wound the other way
+ *   --by flat       glShadeModel(GL_FLAT)
+ *   --by round      normals of a round ball
  *
  *   cc -o facets corpus/facets.c -lglut -lGLU -lGL -lm
  */
@@ -52,8 +53,10 @@ static void corner(float around, float down)
 
 static void draw_ball(void)
 {
+	const float turned = is_by("clockwise") ? 1 : 0;
 	float middle[3];
 
+	glFrontFace(turned ? GL_CW : GL_CCW);
 	glBegin(GL_QUADS);
 	for (int down = 0; down < DOWN; down++)
 		for (int around = 0; around < AROUND; around++) {
@@ -62,11 +65,12 @@ static void draw_ball(void)
 			place(u + 0.5f, v + 0.5f, middle);
 			glNormal3fv(middle);
 			corner(u, v);
-			corner(u, v + 1);
+			corner(u + turned, v + 1 - turned);
 			corner(u + 1, v + 1);
-			corner(u + 1, v);
+			corner(u + 1 - turned, v + turned);
 		}
 	glEnd();
+	glFrontFace(GL_CCW);
 }
 
 static void draw(void)

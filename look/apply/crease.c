@@ -59,7 +59,7 @@ static struct facet facet_of(const struct scene_mesh *mesh, uint32_t primitive, 
 {
 	const uint32_t first = 3 * primitive;
 	struct facet f = { .is_flat = 1 };
-	float edge[3][3];
+	float edge[3][3], sign;
 
 	for (uint32_t i = 0; i < 3; i++) {
 		subtract(corner_position(mesh, first + (i + 1) % 3), corner_position(mesh, first + i), edge[i]);
@@ -72,8 +72,9 @@ static struct facet facet_of(const struct scene_mesh *mesh, uint32_t primitive, 
 		f.normal[k] = edge[0][(k + 1) % 3] * edge[1][(k + 2) % 3] - edge[0][(k + 2) % 3] * edge[1][(k + 1) % 3];
 	/* The last corner's normal is the one used under flat shading. */
 	normalize(f.normal);
-	for (int k = 0; k < 3 && dot(f.normal, corner_normal(mesh, first + 2)) < 0; k++)
-		f.normal[k] = -f.normal[k];
+	sign = dot(f.normal, corner_normal(mesh, first + 2)) < 0 ? -1 : 1;
+	for (int k = 0; k < 3; k++)
+		f.normal[k] *= sign;
 	return f;
 }
 

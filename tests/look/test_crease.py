@@ -40,7 +40,7 @@ def differences(a, b):
 
 
 truth = picture("round", None, "--relight", "--device", "reference")
-for by in ("faces", "flat"):
+for by in ("faces", "clockwise", "flat"):
     bare, smooth, sharp = picture(by), picture(by, 40), picture(by, 4)
     check(all(bare[c] == smooth[c] for c in KEPT), f"{by}: OpenGL's picture and the geometry are unchanged")
     off, on, few = (differences(planes, truth)[0] for planes in (bare, smooth, sharp))
