@@ -80,6 +80,7 @@ static int get_toc(struct index *index, const void *data, size_t n)
 
 	index->calls = cursor_u64(&in);
 	index->damaged = cursor_u64(&in) != 0;
+	index->cut_after = cursor_u64(&in);
 	index->frames = get_array(&in, &index->n_frames, sizeof(*index->frames));
 	index->checkpoints = get_array(&in, &index->n_checkpoints, sizeof(*index->checkpoints));
 	index->lacks = get_array(&in, &index->n_lacks, sizeof(*index->lacks));

@@ -206,6 +206,7 @@ static int scan(struct index *index, struct player *p)
 	}
 	index->calls = p->exec->n_calls;
 	index->damaged = rc == ERR_INPUT;
+	index->cut_after = trace_reader_cut_after(p->reader);
 	return rc == ERR_INPUT && index->n_frames ? 0 : rc;
 }
 
@@ -215,6 +216,7 @@ static void put_toc(const struct index *index, struct bytes *out)
 {
 	bytes_put_u64(out, index->calls);
 	bytes_put_u64(out, (uint64_t)index->damaged);
+	bytes_put_u64(out, index->cut_after);
 	bytes_put_u64(out, index->n_frames);
 	bytes_put(out, index->frames, index->n_frames * sizeof(*index->frames));
 	bytes_put_u64(out, index->n_checkpoints);
@@ -333,7 +335,12 @@ int index_open(struct index **out, const char *path, const char *hash, enum inde
 {
 	int rc = index_create(out, path, hash);
 
-	if (rc || (mode == INDEX_KEEP && index_load(*out)))
+	if (!rc && mode == INDEX_KEEP && index_load(*out)) {
+		if ((*out)->cut_after)
+			trace_warn_cut(path, (*out)->cut_after);
+		return 0;
+	}
+	if (rc)
 		return rc;
 	rc = make(*out, fresh);
 	if (rc)

@@ -13,7 +13,7 @@
 #include "replay/index/index.h"
 #include "replay/index/snapshot.h"
 
-#define INDEX_MAGIC "RELIDX5\n" /* the number changes with the file format */
+#define INDEX_MAGIC "RELIDX6\n" /* the number changes with the file format */
 
 struct index_header {
 	char magic[8];
@@ -52,7 +52,7 @@ struct index {
 	size_t n_frames, room_frames;
 	struct index_lack *lacks;
 	size_t n_lacks, room_lacks;
-	uint64_t calls;
+	uint64_t calls, cut_after; /* cut_after: the call after which the trace is cut short; 0: it is whole */
 	int damaged;
 	uint8_t *signatures;
 	size_t n_signatures;

@@ -272,10 +272,7 @@ static struct reader_call *end_of_calls(struct trace_reader *r)
 		r->ended = 1;
 		r->cut |= container_is_cut(r->container);
 		if (r->cut)
-			err_warn(r->path,
-			         "the file is cut short after call %llu; frames before it are whole, and 'relume "
-			         "repair' saves them",
-			         (unsigned long long)r->next_number);
+			trace_warn_cut(r->path, r->next_number);
 		else if (container_behind(r->container))
 			err_warn(r->path,
 			         "%llu bytes follow the recording after call %llu, and are not read; 'relume repair' "

@@ -110,6 +110,13 @@ done = relume("scene", cut)
 said = done.stderr.splitlines()
 check(done.returncode == INPUT and "relume repair" in said[0] and said[-1].endswith("holds no whole frame"),
       f"a recording without a frame: {said}")
+cut.write_bytes(data[:-1])
+for when in ("first", "then from its index"):
+    done = relume("render", cut, "-f", "1", "-o", WORK / "cut.png", "--device", "reference")
+    check(done.returncode == 0 and done.stderr.count("the file is cut short after call") == 1,
+          f"a recording that lacks its last byte, {when}: exit code {done.returncode}: {done.stderr}")
+for path in map(pathlib.Path, left_behind()):
+    path.unlink()
 for size in (2, len(data) // 3, len(data) // 2, len(data) - 1):
     cut.write_bytes(data[:size])
     for verb, arguments in READERS.items():
