@@ -205,7 +205,10 @@ void context_destroyed(void *handle)
 	pthread_mutex_unlock(&list_lock);
 }
 
-/* Errors */
+/*
+ * Errors. A driver whose flag was not fetched would not note another error (GL 2.1 sec. 2.5), so while the program has
+ * some to fetch here, later ones are dropped.
+ */
 
 unsigned context_pending_error(unsigned error)
 {
@@ -213,8 +216,6 @@ unsigned context_pending_error(unsigned error)
 
 	if (!current || !current->n_errors)
 		return error;
-	if (error && current->n_errors < MAX_ERRORS)
-		current->errors[current->n_errors++] = error;
 	first = current->errors[0];
 	current->n_errors--;
 	memmove(current->errors, current->errors + 1, sizeof(current->errors[0]) * (size_t)current->n_errors);
@@ -223,10 +224,11 @@ unsigned context_pending_error(unsigned error)
 
 void context_errors_before(void)
 {
+	const int keep = current && !current->n_errors;
 	unsigned error;
 
 	for (int i = 0; i < MAX_ERRORS && (error = real_glGetError()); i++)
-		if (current && current->n_errors < MAX_ERRORS)
+		if (keep)
 			current->errors[current->n_errors++] = error;
 }
 

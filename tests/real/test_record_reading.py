@@ -10,7 +10,7 @@ for name, arguments in (("plain", ("plain",)), ("odd", ())):
            options=("--ref", "color,depth"))  # the program exits with 1 if its state changed
     pictures[name] = reference_frames(SCRATCH / f"{name}.ref"), reference_depths(SCRATCH / f"{name}.ref")
 colors, depths = pictures["plain"]
-check(len(colors) == len(depths) == 9 and len({c[2] for c in colors.values()}) == 9, "nine frames that look different")
+check(len(colors) == len(depths) == 11 and len({c[2] for c in colors.values()}) == 11, "11 frames that look different")
 for what, was, now in (("colours", colors, pictures["odd"][0]), ("depths", depths, pictures["odd"][1])):
     check(now.keys() == was.keys() and not [i for i in was if now[i] != was[i]],
           f"{what} of frames {[i for i in was if now.get(i) != was[i]]} differ")

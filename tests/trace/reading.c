@@ -1,11 +1,11 @@
 /*
  * All state that affects glReadPixels is set to unusual values, one kind at the end of each frame. The recorder reads
- * frames back within the program, and must leave all of it unchanged. With an argument nothing is set: the same
- * pictures.
+ * frames back within the program, and must leave all of it unchanged. The last two frames make an error each: GL keeps
+ * only the first until it is fetched (GL 2.1 sec. 2.5). With an argument nothing is set: the same pictures.
  */
 #include "window.h"
 
-enum { FRAMES = 9, BYTES = 64 * 48 * 4 };
+enum { FRAMES = 11, BYTES = 64 * 48 * 4 };
 
 static const struct setting {
 	unsigned name;
@@ -61,6 +61,10 @@ static void set(int frame)
 		glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
 	else if (frame == 7)
 		glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+	else if (frame == 9)
+		glEnable(GL_FOG_MODE);
+	else if (frame == 10)
+		glPopMatrix();
 	else {
 		glPixelTransferf(GL_RED_SCALE, 0.5f);
 		glPixelTransferf(GL_GREEN_BIAS, 0.25f);
@@ -87,15 +91,20 @@ static void expect_set(int frame)
 			expect(bytes[i] == 7, "nothing is read into the program's buffer");
 	}
 	expect(asked(GL_FRAMEBUFFER_BINDING) == (frame == 7 ? (int)framebuffer : 0), "the framebuffer stays bound");
-	expect(asked_float(GL_RED_SCALE) == (frame == 8 ? 0.5f : 1) &&
-	               asked_float(GL_GREEN_BIAS) == (frame == 8 ? 0.25f : 0) &&
-	               asked_float(GL_DEPTH_BIAS) == (frame == 8 ? 0.125f : 0) && asked(GL_MAP_COLOR) == (frame == 8),
+	expect(asked_float(GL_RED_SCALE) == (frame >= 8 ? 0.5f : 1) &&
+	               asked_float(GL_GREEN_BIAS) == (frame >= 8 ? 0.25f : 0) &&
+	               asked_float(GL_DEPTH_BIAS) == (frame >= 8 ? 0.125f : 0) && asked(GL_MAP_COLOR) == (frame >= 8),
 	       "pixel transfer as it was set");
-	expect(asked(GL_READ_BUFFER) == (frame == 8 ? GL_FRONT :
+	expect(asked(GL_READ_BUFFER) == (frame >= 8 ? GL_FRONT :
 	                                 frame == 7 ? GL_COLOR_ATTACHMENT0 :
 	                                              GL_BACK),
 	       "the buffer that is read");
-	expect(glGetError() == GL_NO_ERROR, "no error");
+	if (frame == 10) {
+		glPopMatrix();
+		expect(glGetError() == GL_INVALID_ENUM, "the first error is kept");
+	}
+	if (frame != 9)
+		expect(glGetError() == GL_NO_ERROR, "no error, or no further one");
 }
 
 int main(int argc, char **argv)
