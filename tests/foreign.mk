@@ -14,14 +14,19 @@ $(BUILD)/i386/%: corpus/%.c corpus/program.h | $(BUILD)/deps.i386
 # Windows programs, for Wine: unchanged corpus programs, also as 32-bit ones, and one with Windows' own kinds of
 # windows.
 WINDOWS := $(addprefix $(BUILD)/windows/,two_triangles.exe spheres.exe tricks.exe wgl.exe)
-WINE32 := $(BUILD)/wine32/usr/lib/wine/wine
-WINDOWS32 := $(foreach p,two_triangles spheres tricks,$(BUILD)/windows32/$p.exe $(BUILD)/i386/sse/$p) $(WINE32)
+WINE32 := $(BUILD)/wine32/usr/lib/i386-linux-gnu/libfreetype.so.6
+WINDOWS32 := $(foreach p,two_triangles spheres tricks,$(BUILD)/windows32/$p.exe $(BUILD)/i386/sse/$p) \
+	$(BUILD)/windows32/wgl.exe $(WINE32)
 MINGW = -w64-mingw32-gcc -std=gnu11 $(WARNINGS) -O2 -ffp-contract=off
 windows: $(WINDOWS) $(WINDOWS32)
 
 $(BUILD)/windows/wgl.exe: tests/real/wgl.c | $(BUILD)/deps.windows
 	@mkdir -p $(@D)
 	$(Q)x86_64$(MINGW) -o $@ $< -lopengl32 -lgdi32
+
+$(BUILD)/windows32/wgl.exe: tests/real/wgl.c | $(BUILD)/deps.windows
+	@mkdir -p $(@D)
+	$(Q)i686$(MINGW) $(SSE) -o $@ $< -lopengl32 -lgdi32
 
 $(BUILD)/windows/%.exe: corpus/%.c corpus/program.h corpus/windows/GL/glut.h | $(BUILD)/deps.windows
 	@mkdir -p $(@D)
@@ -41,11 +46,12 @@ $(BUILD)/windows32/%.exe: corpus/%.c corpus/program.h corpus/windows/GL/glut.h |
 
 # Wine for both classes, in a folder. Debian's wine32 is unpacked, not installed: installing it needs half of i386, in
 # the package versions of this system, which an archive may lack. It has the same version as the wine64 that starts
-# it, and no fonts: with i386's FreeType it waits forever in NtGdiOpenDCW, recorded or not.
+# it. FreeType, for text, is unpacked beside it.
+WINE32_FONTS := libfreetype6:i386 libpng16-16:i386 libbrotli1:i386
 $(WINE32): | $(BUILD)/deps.windows $(BUILD)/deps.i386
 	$(Q)rm -rf $(BUILD)/wine32 $(BUILD)/wine32.new && mkdir -p $(BUILD)/wine32.new
 	$(Q)version=$$(dpkg-query -W -f '$${Version}' wine64) && cd $(BUILD)/wine32.new && \
-		{ apt-get -q download wine32:i386=$$version libwine:i386=$$version >download.log 2>&1 || \
+		{ apt-get -q download wine32:i386=$$version libwine:i386=$$version $(WINE32_FONTS) >download.log 2>&1 || \
 			{ cat download.log; exit 1; }; } && \
 		for package in *.deb; do dpkg -x $$package . && rm $$package || exit 1; done
 	$(Q)cp /usr/lib/wine/wine64 $(BUILD)/wine32.new/usr/lib/wine

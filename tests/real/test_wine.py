@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Windows programs under Wine (`make windows`): their recordings pass every gate, three corpus programs show exactly
-the pixels of their Linux builds, and WGL's text, shared lists and pbuffers are as displayed. Also the same three as
-32-bit programs, started by programs of either class, if `make i386` has built a recorder for them. limit: 500 s
+the pixels of their Linux builds, and WGL's text, shared lists and pbuffers are as displayed. Also the same as 32-bit
+programs, started by programs of either class, if `make i386` has built a recorder for them. limit: 500 s
 """
 import json
 import os
@@ -19,7 +19,7 @@ if not (BUILD / "windows/wgl.exe").exists() or not shutil.which("wine"):
     skip("'make windows' has not been run: no Windows programs")
 
 both = wine.loader(BUILD)
-os.environ.update(wine.environment(SCRATCH / "wine"))
+os.environ.update(wine.environment(BUILD, SCRATCH / "wine"))
 must(on_display(both, "wineboot", "-i"))
 
 
@@ -43,15 +43,16 @@ for name, options in {**wine.PROGRAMS, "wgl": ()}.items():
     trace, frames = SCRATCH / f"{name}.trace", ("--frames", FRAMES) if options else ()
     record(trace, "wine", BUILD / f"windows/{name}.exe", *options, *frames)
     check_recording(trace, name)
+    of_32_bits = SCRATCH / f"{name}.32.trace"
+    if both != "wine":
+        record(of_32_bits, both, BUILD / f"windows32/{name}.exe", *options, *frames)
+        check_recording(of_32_bits, f"{name} of 32 bits")
     if not options:
         continue
     of_linux = SCRATCH / f"{name}.linux.trace"
     record(of_linux, corpus(name), *options, *frames)
     check(len(shown(trace)) == FRAMES and shown(trace) == shown(of_linux), f"{name}: pixels equal those of Linux")
     if both != "wine":
-        of_32_bits = SCRATCH / f"{name}.32.trace"
-        record(of_32_bits, both, BUILD / f"windows32/{name}.exe", *options, *frames)
-        check_recording(of_32_bits, f"{name} of 32 bits")
         record(of_linux, BUILD / "i386/sse" / name, *options, *frames)
         check(shown(of_32_bits) == shown(of_linux), f"{name} as a 32-bit program: pixels equal those of Linux")
 

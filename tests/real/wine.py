@@ -9,6 +9,9 @@ def loader(build):
     return both if both.exists() and (build / "lib/i386-linux-gnu/librelume.so").exists() else "wine"
 
 
-def environment(prefix):
+def environment(build, prefix):
     """prefix: the folder with Wine's settings"""
-    return {"WINEPREFIX": str(prefix), "WINEDEBUG": "-all", "WINEDLLOVERRIDES": "mscoree=;mshtml=", "WINEARCH": "win64"}
+    return {
+        "WINEPREFIX": str(prefix), "WINEDEBUG": "-all", "WINEDLLOVERRIDES": "mscoree=;mshtml=", "WINEARCH": "win64",
+        "LD_LIBRARY_PATH": str(build / "wine32/usr/lib/i386-linux-gnu")
+    }

@@ -112,7 +112,7 @@ def main(build):
     build = pathlib.Path(build).resolve()
     shown = Shown(build, "reach")
     with tempfile.TemporaryDirectory() as prefix:
-        os.environ.update(wine.environment(prefix))
+        os.environ.update(wine.environment(build, prefix))
         if shutil.which("wineboot"):
             subprocess.run([wine.loader(build), "wineboot", "-i"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                            check=True)
