@@ -2,6 +2,7 @@
 #include "capture/gl/frame.h"
 
 #include <GL/gl.h>
+#include <GL/glext.h>
 #include <errno.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -20,6 +21,7 @@
 #include "capture/write/clock.h"
 #include "capture/write/report.h"
 #include "capture/write/writer.h"
+#include "real.h"
 #include "tables/commands.h"
 
 static _Atomic uint64_t program_frames; /* recorded or not */
@@ -158,10 +160,27 @@ void frame_viewport(int x, int y, int width, int height)
 	    ((int64_t)x + width <= d->marked_width && (int64_t)y + height <= d->marked_height))
 		return;
 	drawable_ask(d, &self.target, 1);
+	if (!self.drawn)
+		drawable_may_have_changed(); /* let_take_size */
 	mark_size(d, d->width, d->height);
 	self.viewport[0] = width;
 	self.viewport[1] = height;
 	errno = saved;
+}
+
+/*
+ * Mesa's software rasterizer reports the new size of a Wayland window once its buffers have it, with the first draw
+ * (22.3.6). So just before the program draws to the window, draw nothing there.
+ */
+static void let_take_size(const struct drawable_target *t)
+{
+	if (t->system != DRAWABLE_EGL || !context_current() || (context_has(HAS_FIXED_FUNCTION) && context_get(GL_LIST_INDEX)))
+		return;
+	if (context_has(HAS_FRAMEBUFFERS) && context_get(GL_FRAMEBUFFER_BINDING))
+		return;
+	context_errors_before();
+	real_glClear(0);
+	context_errors_after();
 }
 
 /* Before the first draw of a frame: with it a window's buffers get the size that the window has by then (held_size). */
@@ -177,6 +196,7 @@ static void frame_begins(void)
 		return;
 	d = drawable_find(t->id);
 	if (d) {
+		let_take_size(t);
 		drawable_ask(d, t, may_be_read());
 		mark_size(d, d->width, d->height);
 	}

@@ -2,8 +2,8 @@
  * cc blades.c -lwayland-client -lwayland-egl -lEGL -lGL -lm
  *
  * Fixed-function OpenGL on Wayland: a lit wheel from a display list in front of a textured wall. `--frames N` ends
- * after N frames; every run draws the same pictures. The window has no role, so it needs no shell: it is drawn to but
- * never shown.
+ * after N frames; every run draws the same pictures. `--resize` after it resizes the window before a frame or at its
+ * end, and prints the size of each frame. The window has no role, so it needs no shell: it is drawn to but never shown.
  */
 #include <EGL/egl.h>
 #include <GL/gl.h>
@@ -111,11 +111,21 @@ static void draw_frame(int frame)
 	glDisable(GL_LIGHTING);
 }
 
+static void print_size(EGLDisplay egl, EGLSurface surface)
+{
+	EGLint width, height;
+
+	eglQuerySurface(egl, surface, EGL_WIDTH, &width);
+	eglQuerySurface(egl, surface, EGL_HEIGHT, &height);
+	printf("%dx%d\n", width, height);
+}
+
 int main(int argc, char **argv)
 {
 	const EGLint attributes[] = { EGL_SURFACE_TYPE, EGL_WINDOW_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_RED_SIZE, 8,
 		                      EGL_DEPTH_SIZE, 24, EGL_NONE };
 	const int frames = argc > 2 && strcmp(argv[1], "--frames") == 0 ? atoi(argv[2]) : 10;
+	const int resizes = argc > 3 && strcmp(argv[3], "--resize") == 0;
 	struct wl_display *display = wl_display_connect(NULL);
 	struct wl_egl_window *window;
 	EGLDisplay egl;
@@ -138,7 +148,17 @@ int main(int argc, char **argv)
 	eglSwapInterval(egl, 0);
 	set_up();
 	for (int frame = 0; frame < frames; frame++) {
+		const int width = 200 + 40 * (3 * frame % 7), height = 150 + 20 * (5 * frame % 7);
+
+		if (resizes && frame % 3 == 0)
+			wl_egl_window_resize(window, width, height, 0, 0);
+		if (resizes)
+			glViewport(0, 0, width, height);
 		draw_frame(frame);
+		if (resizes && frame % 3 == 1)
+			wl_egl_window_resize(window, width, height, 0, 0);
+		if (resizes)
+			print_size(egl, surface);
 		eglSwapBuffers(egl, surface);
 	}
 	eglTerminate(egl);
