@@ -21,7 +21,7 @@ endif
 # goals install.
 HAVE := $(BUILD)/have
 INSTALLING := $(if $(filter-out show-suites,$(filter bench check deps fuzz fuzz-keep golden-update show show-% \
-	test-programs,$(MAKECMDGOALS))),check) $(filter deb gallery lint picture,$(MAKECMDGOALS))
+	test-programs,$(MAKECMDGOALS))),check) $(filter deb deb-i386 gallery lint picture,$(MAKECMDGOALS))
 PYTHON := /usr/bin/python3
 Q := $(if $(V),,@)
 # PATH may have another python; the generators need only Debian's.

@@ -431,7 +431,8 @@ static int check_class(const char *program, const char *recorder)
 		return 0;
 	return err_report(
 		ERR_SYSTEM, program,
-		"is a 32-bit program, but only the 64-bit recorder is installed; 'make i386' builds the other one");
+		"is a 32-bit program, but only the 64-bit recorder is installed; 'make i386' builds the other one, 'make "
+		"deb-i386' its package relume32");
 }
 
 /* No recorder has reported. As exit_code, but never success without a recording. */

@@ -145,7 +145,7 @@ static void explain_stranger(const char *program, const struct watching *w)
 	else if (w->kind == EXECUTABLE_32)
 		err_report(ERR_SYSTEM, program,
 		           "nothing was recorded: process '%s' is a 32-bit program; 'make i386' builds the "
-		           "recorder for it",
+		           "recorder for it, 'make deb-i386' its package relume32",
 		           w->name);
 	else
 		err_report(ERR_SYSTEM, program,

@@ -43,5 +43,9 @@ $(BUILD)/lib/x86_64-linux-gnu/librelume.so: $(BUILD)/librelume.so
 	@mkdir -p $(@D)
 	$(Q)ln -sf ../../librelume.so $@
 
-.PHONY: i386
+# The same as a package, relume32, of architecture i386.
+deb-i386: $(BUILD)/deps.deb-i386 $(BUILD)/deps.i386
+	@packaging/deb.sh '$(BUILD)' i386
+
+.PHONY: i386 deb-i386
 -include $(I386_OBJ:.o=.d)
