@@ -1,4 +1,4 @@
-/* Finds the draws that hold the failing pixels. */
+/* Finds the draws that show the failing pixels. */
 #include "diff/score/measures.h"
 
 #include <stdlib.h>
@@ -20,12 +20,13 @@ static int compare_votes(const void *a, const void *b)
 	return (x->at > y->at) - (x->at < y->at);
 }
 
+/* The draw number of a pixel; 0: none. 2^32 - 256 is the largest float below 2^32. */
 static uint32_t draw_at(const float *ids, size_t i)
 {
 	return ids[i] > 0 && ids[i] < 4294967040.0f ? (uint32_t)ids[i] : 0;
 }
 
-/** Keep the draws with most failing pixels, in falling order; among equals, the first. */
+/** Insert a draw into the list of those with most failing pixels, in descending order; earlier ones precede equals. */
 static void add_blame(struct score *s, const struct score_blame *blame)
 {
 	uint32_t at = s->n_blame;

@@ -1,4 +1,4 @@
-/* Gates R1, R1b, R2 and R3: how many pixels are off in colour. Gate P: perceived difference. */
+/* Gates R1, R1b, R2 and R3: count pixels that differ in colour. Gate P: perceived difference. */
 #include "diff/score/measures.h"
 
 #include <inttypes.h>
@@ -7,9 +7,9 @@
 #include "diff/score/flip.h"
 #include "diff/score/pair.h"
 
-#define GROSS_CODES 32 /* R3 */
+#define GROSS_CODES 32 /* R3: the largest residual that is no gross error */
 
-enum { INTERIOR, BLENDED, BAND };
+enum { INTERIOR, BLENDED, BAND }; /* kinds of pixels: the index in struct gate_colors */
 
 void gate_count_colors(struct gate_frame *f)
 {
@@ -39,8 +39,11 @@ void gate_count_colors(struct gate_frame *f)
 	                          fmax(1, (double)(c->count[INTERIOR] + c->count[BLENDED] + c->count[BAND]));
 }
 
-/* Measure the share of pixels of one kind that fail, or that pass if the bar is a lower bound. none: the note if there
- * are no such pixels */
+/*
+ * Measure the share of pixels of one kind that fail, or that pass if the bar is a lower bound.
+ * @param none    the note if there are no such pixels
+ * @param pixels  their name in the note: "interior pixels"
+ */
 static int measure_kind(struct gate_frame *f, enum score_gate_id id, int kind, const char *none, const char *pixels)
 {
 	const uint64_t n = f->colors.count[kind], failing = f->colors.failing[kind];
@@ -94,7 +97,7 @@ static int has_own_bar(const struct score_options *options, enum score_gate_id i
 	return 0;
 }
 
-/* FLIP sees a drift of 1/255 over a whole picture, a difference usual among rasterizers: such a drift alone does not
+/* FLIP reacts to a drift of 1/255 over a whole picture, which is normal between two rasterizers. A drift alone does not
  * fail. */
 int gate_perceptual(struct gate_frame *f)
 {

@@ -1,4 +1,4 @@
-/* Gates E1 to E3: do the effects add up to the beauty, do they explain its differences, and is there enough of each? */
+/* Gates E1 to E3: the effects add up to the beauty, explain where it differs from gl, and touch enough pixels. */
 #include "diff/score/measures.h"
 
 #include <math.h>
@@ -41,12 +41,13 @@ static double effect_at(const struct image_channel *channel, size_t i, double ab
 	return channel ? (double)channel->values[i] : absent;
 }
 
-/* The six layers of one colour: beauty, gl, shadow, relight, reflect, refract. */
+/* The layers of a frame: beauty = gl x shadow + relight + reflect + refract. */
 enum { LAYER_BEAUTY, LAYER_GL, LAYER_SHADOW, LAYER_RELIGHT, LAYER_REFLECT, LAYER_REFRACT, N_LAYERS };
 
 /**
- * 1 if the renderer left out channels that could explain a difference, so that a sum that does not close means nothing.
- * The file holds the renderer's --aov list; a file without one holds every effect that occurred.
+ * 1 if the renderer was asked to leave out some effect channels: that layers do not add up proves nothing then. The
+ * file holds the renderer's --aov list; a file without one holds every effect that occurred.
+ * @param first  receives the name of the first that is missing
  */
 static int left_out_effects(const struct image *img, const char **first)
 {
@@ -69,7 +70,7 @@ static int left_out_effects(const struct image *img, const char **first)
 	return 0;
 }
 
-/* The layers of a frame, and the tolerance of their sums. */
+/* The channels of these layers, [R, G, B], and the tolerance of their sums. */
 struct layers {
 	const struct image_channel *channels[3][N_LAYERS];
 	double relative, absolute;
@@ -98,7 +99,7 @@ static int find_layers(const struct image *img, struct layers *out)
 		all_halves = holds_halves(out->channels[c][LAYER_BEAUTY], n) && holds_halves(out->channels[c][LAYER_GL], n);
 	if (halves || all_halves) {
 		out->relative = OFF_HALF;
-		out->absolute = 0x1p-23; /* four times half a step of halfs below 2^-14 */
+		out->absolute = 0x1p-23; /* four times half a step of halves below 2^-14 */
 	}
 	return 1;
 }
@@ -106,6 +107,7 @@ static int find_layers(const struct image *img, struct layers *out)
 /* Findings for one pixel: bits of the effects that touch it, then these. */
 enum { PIXEL_OPEN = 1 << N_SCORE_EFFECTS, PIXEL_DIFFERS = 2 << N_SCORE_EFFECTS };
 
+/* Compare the sum of a pixel's layers. worst: raised to its error, in tolerances. @return findings */
 static unsigned look_at_pixel(const struct layers *l, size_t i, double *worst)
 {
 	unsigned found = 0;
@@ -163,7 +165,7 @@ void gate_count_effects(struct gate_frame *f)
 		f->score->info.effect_share[k] = (double)touched[k] / (double)n;
 }
 
-/** 1 if sums of layers are meaningful; else the gate's note says why not. */
+/** 1 if the sums prove anything; otherwise the gate's note gives the reason. */
 static int can_close(struct gate_frame *f, enum score_gate_id id)
 {
 	const char *left_out = NULL;

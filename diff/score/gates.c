@@ -1,4 +1,4 @@
-/* Names and bars of the gates, and recording of measurements. */
+/* The table of gates, and the calls that record their results. */
 #include "diff/score/gates.h"
 
 #include <math.h>

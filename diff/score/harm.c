@@ -47,17 +47,18 @@ enum { MOST_LIGHTS = 16 };
 struct harm {
 	const struct gate_frame *f;
 	uint32_t width, height;
-	const float *gl[3], *shadow[3], *albedo[3], *normal[3], *place[3], *id;
-	const float *relight[3]; /* [0] NULL: nothing is relit */
-	const float *layers; /* NULL: the frame has no such channel */
-	struct frame_list left_out; /* draws that are not surfaces */
-	float lights[MOST_LIGHTS][4];
+	const float *gl[3], *shadow[3], *albedo[3], *id;
+	const float *normal[3], *place[3]; /* eye space: channels N and P */
+	const float *relight[3];     /* [0] NULL: nothing is relit */
+	const float *layers;         /* NULL: the frame has no such channel */
+	struct frame_list left_out;  /* draws of faked effects, which are not surfaces */
+	float lights[MOST_LIGHTS][4]; /* eye space; w 0: a direction */
 	int n_lights;
-	int is_display;
-	float dimmed; /* 1: no light from all around */
-	float *light;  /* [n]: luminance without mirrors */
-	uint8_t *dark; /* [n]: 1: dark; 2: dark, and in a patch already seen */
-	uint32_t *patch; /* [n]: buffer for one patch */
+	int is_display;  /* 1: colours are display-referred, 0: linear light */
+	float dimmed;    /* relume:dimmed; 1: there is no light from all around */
+	float *light;    /* [n]: luminance of gl x shadow + relight */
+	uint8_t *dark;   /* [n]: 1: dark; 2: dark, and in a patch already collected */
+	uint32_t *patch; /* [n]: the pixels of one patch */
 };
 
 static int find_planes(const struct image *img, const char *layer, const char *letters, const float *planes[3])
@@ -94,7 +95,7 @@ static float gl_light(const struct harm *h, size_t i)
 	return luminance(h->gl[0][i], h->gl[1][i], h->gl[2][i]);
 }
 
-/* Light per unit of a surface's own colour. */
+/* Light per unit of a surface's albedo. */
 static float shade(const struct harm *h, size_t i)
 {
 	return h->light[i] / fmaxf(luminance(h->albedo[0][i], h->albedo[1][i], h->albedo[2][i]), 1e-4f);
@@ -108,6 +109,7 @@ static int is_lighter(const struct harm *h, size_t i, size_t than)
 	return shade(h, i) > 1.25f * shade(h, than);
 }
 
+/* Fill `light` and `dark`. */
 static void find_dark(const struct harm *h, size_t n)
 {
 	for (size_t i = 0; i < n; i++) {
@@ -123,6 +125,7 @@ static void find_dark(const struct harm *h, size_t n)
 	}
 }
 
+/* The vector from pixel b's place to pixel a's. */
 static void subtract(const struct harm *h, size_t a, size_t b, float out[3])
 {
 	for (int k = 0; k < 3; k++)

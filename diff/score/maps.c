@@ -7,7 +7,7 @@
 #include "base/err.h"
 #include "diff/score/pair.h"
 
-#define BAR_PER_LAYER 0.5    /* R1b: added for each blended layer */
+#define BAR_PER_LAYER 0.5 /* R1b: codes that each blended layer adds to R1's bar */
 
 /** The smallest difference of one pixel of `a` from the 3x3 pixels around the same place in `b`. */
 static int nearest_difference(const struct score_picture *a, const struct score_picture *b, int x, int y)
@@ -37,7 +37,7 @@ int score_depth_is_16_bit(const float *depth, size_t n)
 	return 1;
 }
 
-/** 1 if depth bends at the middle of three samples in a row. See "edges" in score.h. */
+/** 1 if depth bends at the middle one of three adjacent samples: "edges" in score.h. */
 static int depth_bends(double before, double at, double after, double epsilon)
 {
 	double rise = fmax(fabs(after - at), fabs(at - before));

@@ -1,12 +1,13 @@
-/* Maps for the colour gates: differences, edges, failing pixels. */
+/* Per-pixel maps that the colour gates count: differences, edges, failing pixels. */
 #pragma once
 
 #include "diff/score/score.h"
 
-/** Per-pixel differences, which reports also show. All: [height][width]. */
+/** The maps, each [height][width]. Reports show them, too. */
 struct score_maps {
 	uint8_t *difference; /* largest channel difference, codes */
-	uint8_t *residual;   /* remaining difference after R2's symmetric minimum over 3x3 pixels, codes */
+	uint8_t *residual;   /* difference to the nearest of 3 x 3 pixels in the other picture; the larger of both
+	                        directions, codes (R2, R3) */
 	uint8_t *failing;    /* 1 where the pixel fails R1, R1b or R2 */
 	uint8_t *band;       /* 1: edge band */
 };
@@ -19,7 +20,6 @@ struct score_maps {
 int score_make_maps(const struct score_picture *ref, const struct score_picture *traced,
                     const struct score_options *options, struct score_maps *out);
 void score_maps_free(struct score_maps *maps);
-
 
 /** 1 if all depths are steps of a 16-bit depth buffer. */
 int score_depth_is_16_bit(const float *depth, size_t n);

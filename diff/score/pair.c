@@ -8,7 +8,7 @@
 
 /* Codes for a factor of e in light: the slope of 255 sRGB(x) at white. */
 #define CODES_OVER_WHITE (255 * 1.055f / 2.4f)
-#define NOT_A_NUMBER INT16_MAX /* differs by far from all codes */
+#define NOT_A_NUMBER INT16_MAX /* the code of NaN: far from all others */
 
 /* A linear number as an unclamped code. */
 static int wide_code(float linear)
@@ -35,6 +35,7 @@ static int is_alpha_compared(const struct score_numbers *a, const struct score_n
 	return a->is_frame ? a->alpha && b->alpha : a->alpha || b->alpha;
 }
 
+/* 1 if a number is below 0 or above 1, or NaN. */
 static int has_beyond(const struct score_numbers *n, size_t pixels)
 {
 	for (int c = 0; c < 3; c++)
@@ -44,12 +45,13 @@ static int has_beyond(const struct score_numbers *n, size_t pixels)
 	return 0;
 }
 
-/* Factor of pixel i's colours. */
+/* The factor that multiplies pixel i's colours by its alpha, unless they are stored that way. */
 static float weight_of(const struct score_numbers *n, int with_alpha, size_t i)
 {
 	return with_alpha && n->alpha && n->is_straight ? n->alpha[i] : 1;
 }
 
+/* Fill the codes, alpha and beyond. */
 static void fill(struct score_picture *p, int with_alpha, size_t pixels)
 {
 	const struct score_numbers *n = &p->numbers;

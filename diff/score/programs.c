@@ -11,9 +11,9 @@
 
 #define MOST_DRAWS ((size_t)1 << 24)
 
-/* Count the pixels of draws in the list. marked: [n] scratch, by draw number */
-static void count(const struct gate_frame *f, const struct frame_list *draws, uint8_t *marked, size_t n,
-                  struct score_program *program)
+/* Count the pixels that the listed draws show. marked: [n] scratch memory, by draw number */
+static void count_pixels(const struct gate_frame *f, const struct frame_list *draws, uint8_t *marked, size_t n,
+                         struct score_program *program)
 {
 	const size_t n_pixels = (size_t)f->ref->width * f->ref->height;
 	const float *id = f->traced.id;
@@ -41,8 +41,8 @@ static size_t end_of_draws(const struct gate_frame *f)
 	return end;
 }
 
-/* Parse text "program object 7=1-4,9-9", which is modified. Anything else counts nothing. */
-static void add(const struct gate_frame *f, char *text, uint8_t *marked, size_t n)
+/* Add a program and its draws: "program object 7=1-4,9-9". Modifies the text, and ignores text of another form. */
+static void add_program(const struct gate_frame *f, char *text, uint8_t *marked, size_t n)
 {
 	struct score *s = f->score;
 	struct score_program *program = &s->programs[s->n_programs];
@@ -56,25 +56,25 @@ static void add(const struct gate_frame *f, char *text, uint8_t *marked, size_t 
 		return;
 	*program = (struct score_program){ .pixels = 0 };
 	snprintf(program->name, sizeof(program->name), "%s", text);
-	count(f, &draws, marked, n, program);
+	count_pixels(f, &draws, marked, n, program);
 	s->n_programs += program->pixels > 0;
 	frame_list_free(&draws);
 }
 
 int gate_programs(const struct gate_frame *f)
 {
-	const char *told = image_attribute(f->img, "relume:programs");
+	const char *listed = image_attribute(f->img, "relume:programs");
 	uint8_t *marked;
 	char *text, *rest;
 	size_t n;
 
-	if (!told || !f->traced.id || !f->maps.failing)
+	if (!listed || !f->traced.id || !f->maps.failing)
 		return 0;
 	n = end_of_draws(f);
 	marked = malloc(n);
-	text = rest = strdup(told);
+	text = rest = strdup(listed);
 	for (char *part; marked && text && (part = strsep(&rest, ";"));)
-		add(f, part, marked, n);
+		add_program(f, part, marked, n);
 	n = marked && text;
 	free(marked);
 	free(text);

@@ -1,4 +1,4 @@
-/* Scores one frame: prepares what the gates share, and runs them. */
+/* Scores one frame: computes the data that the gates share, then runs every gate. */
 #include "diff/score/score.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ const char *const score_state_names[N_SCORE_STATES] = { "not measured", "passed"
 #define GATE_MEASURE(id, name, title, measure, ...) [GATE_##id] = measure,
 static int (*const measures[N_GATES])(struct gate_frame *f) = { SCORE_GATES(GATE_MEASURE) };
 
-/** Make ignored pixels equal, for measures of whole pictures. */
+/** Copy ignored pixels from the reference, so that measures of whole pictures find no difference there. */
 static void copy_ignored(const struct score_picture *ref, const struct score_picture *to)
 {
 	const size_t n = (size_t)ref->width * ref->height;
@@ -30,6 +30,7 @@ static void copy_ignored(const struct score_picture *ref, const struct score_pic
 			memcpy(to->rgb + 3 * i, ref->rgb + 3 * i, 3);
 }
 
+/** Compare the beauty with the reference, for figures that do not affect the outcome. None without a beauty. */
 static int measure_beauty(const struct gate_frame *f)
 {
 	const struct score_picture *ref = f->ref;
@@ -39,8 +40,8 @@ static int measure_beauty(const struct gate_frame *f)
 	int err = score_picture_from_image(f->img, "beauty", &beauty);
 
 	if (err)
-		return err == ERR_INPUT ? 0 : err; /* no such layer */
-	if (strcmp(f->layer, "beauty") == 0) /* the beauty as compared: premultiplied if alpha counts */
+		return err == ERR_INPUT ? 0 : err; /* ERR_INPUT: there is no such layer */
+	if (strcmp(f->layer, "beauty") == 0) /* as the gates compare it: premultiplied if alpha counts */
 		memcpy(beauty.rgb, f->traced.rgb, 3 * n);
 	copy_ignored(ref, &beauty);
 	err = flip_compare(ref->rgb, beauty.rgb, ref->width, ref->height, NULL, &s->info.beauty_flip);
@@ -69,8 +70,8 @@ static int measure_info(const struct gate_frame *f)
 	return err ? err : measure_beauty(f);
 }
 
-/** Compute what the colour and effect gates count. */
-static int prepare(struct gate_frame *f, struct score_picture *ref)
+/** Extract the compared layer; fill the maps and counts that several gates use. The caller frees them. */
+static int fill_frame(struct gate_frame *f, struct score_picture *ref)
 {
 	const size_t n = (size_t)f->ref->width * f->ref->height;
 	int err = score_picture_from_image(f->img, f->layer, &f->traced);
@@ -96,7 +97,7 @@ static int prepare(struct gate_frame *f, struct score_picture *ref)
 /** Measure everything on a valid frame. */
 static int measure_frame(struct gate_frame *f, struct score_picture *ref)
 {
-	int err = prepare(f, ref);
+	int err = fill_frame(f, ref);
 
 	for (int g = GATE_V + 1; !err && g < N_GATES; g++) {
 		if (score_gates[g].needs_reference && !f->ref->rgb)
@@ -125,6 +126,7 @@ int score_frame(struct score_picture *ref, const struct image *img, uint64_t fra
 
 	f.layer = options->channel ? options->channel : score_find_layer(img, "gl", planes) ? "gl" : "beauty";
 	*out = (struct score){ .frame = frame, .width = ref->width, .height = ref->height };
+	/* NAN: not measured */
 	out->info = (struct score_info){ NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, { NAN, NAN, NAN, NAN, NAN } };
 	snprintf(out->layer, sizeof(out->layer), "%s", f.layer);
 	err = measures[GATE_V](&f);

@@ -8,11 +8,18 @@
 #include "base/err.h"
 #include "diff/score/picture.h"
 
-/* A pixel is covered if it differs from the background by more than HIGH, and not covered up to LOW. The gap keeps
- * rounding from flipping pixels where fog or blending fades into the background. */
+/*
+ * By colour, a pixel is covered if it differs from the background by more than COVER_HIGH codes, and uncovered up to
+ * COVER_LOW. In between it matches both, so that rounding flips no pixel where something fades into the background.
+ */
 enum { COVER_LOW = 2, COVER_HIGH = 4 };
 
-/** The most frequent colour among `chosen` pixels (NULL: all), packed; 0 if there are none. */
+/**
+ * Find the most frequent colour among the chosen pixels.
+ * @param chosen  1 for pixels that count; NULL: all do
+ * @param found   receives 0 if no pixel is chosen, so that color is not set
+ * @return 0 or ERR_SYSTEM (reported)
+ */
 static int find_background(const uint8_t *rgb, const uint8_t *chosen, size_t n, uint8_t color[3], int *found)
 {
 	uint32_t *counts = calloc(1 << 24, sizeof(*counts)), most = 0;
@@ -35,7 +42,7 @@ static int find_background(const uint8_t *rgb, const uint8_t *chosen, size_t n, 
 	return 0;
 }
 
-/** Size of the largest group of marked pixels that touch, including at corners. Clears the marks. */
+/** Measure the largest group of marked pixels that touch, at sides or corners. Clears the marks. */
 static int largest_blob(uint8_t *marks, int width, int height, uint64_t *largest)
 {
 	const size_t n = (size_t)width * (size_t)height;
@@ -82,7 +89,7 @@ static float background_depth(const struct score_picture *traced, size_t n)
 	return 1;
 }
 
-/* How surely a pixel is covered: 0 not, 1 maybe, 2 surely. */
+/* Whether a pixel is covered: 0 no, 1 perhaps, 2 yes. */
 static int coverage(const struct score_picture *pic, size_t i, int use_depth, float far_depth,
                     const uint8_t *background)
 {
