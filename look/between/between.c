@@ -1,3 +1,4 @@
+/* Makes the scene at a moment: moves each draw of the base, and mixes the rest. */
 #include "look/between/between.h"
 
 #include <math.h>
@@ -18,7 +19,7 @@ struct interval {
 	int is_cut;
 };
 
-/* A scene being made. */
+/* The scene that between_make is making. */
 struct making {
 	const struct bridge *b;
 	struct mixer mixer;
@@ -57,7 +58,8 @@ int interval_is_cut(const struct interval *interval)
 
 /* --- Places of draws --------------------------------------------------------------------------------------------- */
 
-static void take(float out[16], const double part[16], const float place[16])
+/* out = part place. */
+static void move_place(float out[16], const double part[16], const float place[16])
 {
 	double from[16], to[16];
 
@@ -67,7 +69,11 @@ static void take(float out[16], const double part[16], const float place[16])
 		out[k] = (float)to[k];
 }
 
-/* The part of a couple's motion up to this moment. @return 0: no rigid body moves like this */
+/*
+ * The part of a couple's motion up to this moment. If the camera's motion applies (filmed), the draw's own motion is
+ * interpolated relative to it.
+ * @return 0: no rigid body moves like this
+ */
 static int part_of(const struct making *m, const struct couple *c, int filmed, double out[16])
 {
 	double own[16], part[16];
@@ -87,21 +93,22 @@ static int part_of(const struct making *m, const struct couple *c, int filmed, d
 	return 1;
 }
 
-/* A flattened draw moves with the camera if that explains its motion; otherwise its numbers are mixed. */
+/* A draw whose motion pose.h cannot interpolate, such as a flattened one, moves with the camera if that explains its
+ * motion. Otherwise the elements of its modelview are interpolated. */
 static void place_flat(const struct making *m, uint32_t i, int filmed, float out[16])
 {
 	const float *first = bridge_place(m->b, i, 0), *second = bridge_place(m->b, i, 1);
 	float moved[16], most = 0;
-	int goes = filmed;
+	int follows = filmed;
 
 	if (filmed)
-		take(moved, m->b->camera->motion, first);
+		move_place(moved, m->b->camera->motion, first);
 	for (int k = 0; k < 16; k++)
 		most = fmaxf(most, fabsf(second[k]));
 	for (int k = 0; k < 16 && filmed; k++)
-		goes &= fabsf(moved[k] - second[k]) <= (float)BRIDGE_SAME * most;
-	if (goes) {
-		take(out, m->mixer.camera_part, first);
+		follows &= fabsf(moved[k] - second[k]) <= (float)BRIDGE_SAME * most;
+	if (follows) {
+		move_place(out, m->mixer.camera_part, first);
 		return;
 	}
 	for (int k = 0; k < 16; k++)
@@ -120,12 +127,12 @@ static void place_alone(const struct making *m, uint32_t i)
 	if (!bridge_is_filmed(m->b, i))
 		return;
 	if (!m->b->is_back)
-		take(out->modelview, m->mixer.camera_part, in->modelview);
+		move_place(out->modelview, m->mixer.camera_part, in->modelview);
 	else if (pose_part(back, m->b->camera->back, 1 - m->mixer.at))
-		take(out->modelview, back, in->modelview);
+		move_place(out->modelview, back, in->modelview);
 }
 
-/* @return 0 or ERR_SYSTEM (reported) */
+/* Move a draw that has a partner; mix its mesh, material, attributes and view. @return 0 or ERR_SYSTEM (reported) */
 static int place(struct making *m, uint32_t i)
 {
 	const struct bridge *b = m->b;
@@ -138,7 +145,7 @@ static int place(struct making *m, uint32_t i)
 
 	if (memcmp(first, bridge_place(b, i, 1), sizeof(out->modelview)) != 0) {
 		if (part_of(m, c, filmed, part))
-			take(out->modelview, part, first);
+			move_place(out->modelview, part, first);
 		else
 			place_flat(m, i, filmed, out->modelview);
 	}
@@ -165,7 +172,7 @@ static void *copy_of(const void *items, size_t n, size_t size)
 	return copy;
 }
 
-/* Copy all arrays that mixing changes. */
+/* Copy a scene, with arrays of its own where mixing changes or extends them. @return 0 or ERR_SYSTEM (reported) */
 static int copy_scene(const struct scene *s, struct scene *out)
 {
 	*out = *s;
@@ -185,6 +192,7 @@ static int copy_scene(const struct scene *s, struct scene *out)
 	               err_report(ERR_SYSTEM, NULL, "out of memory");
 }
 
+/* Give the scene a serial number that depends on both frames and the moment. */
 static void name_scene(const struct making *m)
 {
 	const struct {
@@ -195,7 +203,7 @@ static void name_scene(const struct making *m)
 	m->mixer.out->serial = XXH3_64bits(&of, sizeof(of)) | 1; /* 0 means none */
 }
 
-/* @return 0 or ERR_SYSTEM (reported) */
+/* Turn a copy of the base into the scene. @return 0 or ERR_SYSTEM (reported) */
 static int fill(struct making *m)
 {
 	const struct bridge *b = m->b;

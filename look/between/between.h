@@ -14,10 +14,11 @@
 
 #include "scene/scene.h"
 
-/* Two frames, and everything that the moments between them share. */
+/* Two frames, and everything that scenes between them share. */
 struct interval;
 
 /**
+ * Match the draws of two frames.
  * @param first, second  scenes of frames, in order of time; they must outlive the interval
  * @return an interval, which threads may share; NULL: no memory (reported)
  */
@@ -27,14 +28,16 @@ void interval_free(struct interval **interval);
 /** 1 if a cut separates the two. */
 int interval_is_cut(const struct interval *interval);
 
+/* A scene between two frames. */
 struct between {
 	struct scene scene; /* borrows unchanged parts from both frames */
 	uint32_t n_matched, n_alone; /* draws with a partner and without; pixel rectangles are not counted */
-	void **owned;
+	void **owned; /* [n_owned]: further memory of the scene */
 	size_t n_owned;
 };
 
 /**
+ * Make the scene at a moment.
  * @param interval  without a cut
  * @param at        (0,1): 0 is the first frame
  * @param base      0: the first frame; 1: the second

@@ -1,3 +1,4 @@
+/* Places and motions of matched draws. */
 #include "look/between/bridge.h"
 
 #include <math.h>

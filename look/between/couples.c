@@ -1,3 +1,4 @@
+/* Matches the draws of two frames, and finds the camera's motion. */
 #include "look/between/couples.h"
 
 #include <stdlib.h>
@@ -14,7 +15,7 @@
 
 /* --- The camera -------------------------------------------------------------------------------------------------- */
 
-/* 1 if a draw counts for the camera's motion: opaque, with depth, in perspective. */
+/* 1 if a draw counts when the camera's motion is sought: opaque triangles with depth, in perspective. */
 static int votes(const struct bridge *b, uint32_t i)
 {
 	const struct scene *s = b->base;
@@ -26,8 +27,8 @@ static int votes(const struct bridge *b, uint32_t i)
 	       !drawn_in_parallel(&s->views[in->view]);
 }
 
-/* Collect the motions of draws. @param of  the value of is_sure of these draws @return their weight */
-static double gather_motions(struct bridge *b, int of)
+/* Collect the motions of draws that vote. @param only_sure  1: of sure couples only @return the sum of all sizes */
+static double gather_motions(struct bridge *b, int only_sure)
 {
 	const struct scene *s = b->base;
 	double all = 0;
@@ -38,7 +39,7 @@ static double gather_motions(struct bridge *b, int of)
 		const uint32_t space = s->views[s->instances[i].view].space;
 		unsigned g = 0;
 
-		if (!votes(b, i) || c->is_sure < of)
+		if (!votes(b, i) || c->is_sure < only_sure)
 			continue;
 		while (g < b->n_motions && (b->motions[g].space != space || !bridge_agrees(c, b->motions[g].motion, c->motion)))
 			g++;
@@ -77,7 +78,7 @@ static void find_camera(struct bridge *b)
 
 /* --- All draws --------------------------------------------------------------------------------------------------- */
 
-/* @return 0 or ERR_SYSTEM (reported) */
+/* Couple the n-th draw of a mesh with the n-th in the other frame. @return 0 or ERR_SYSTEM (reported) */
 static int couple_by_number(struct bridge *b)
 {
 	const struct scene *s = b->base;
@@ -108,8 +109,8 @@ static int is_still(const struct bridge *b, uint32_t i)
 	       (c->moves && bridge_agrees(c, bridge_is_filmed(b, i) ? b->camera->motion : matrix_identity, c->motion));
 }
 
-/* Leave draws without depth, such as letters, at the base's position if they move, because nothing proves which is
- * which. */
+/* Draws without depth that move, such as letters, lose their partner and keep the base's position: nothing proves which
+ * is which. */
 static void leave_flat(struct bridge *b)
 {
 	const struct scene *s = b->base;

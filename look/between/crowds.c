@@ -1,3 +1,4 @@
+/* Matches draws of the same points, in the three stages of crowds.h. */
 #include "look/between/crowds.h"
 
 #include <math.h>
@@ -8,8 +9,8 @@
 #include "look/draws/followed.h"
 #include "look/draws/matrix.h"
 
-#define WINDOW 64u       /* how far apart partners may be in the order of their crowd */
-#define MOST_MOTIONS 9u  /* that are tried, standing still included */
+#define WINDOW 64u       /* largest difference between the partners' positions in their crowd */
+#define MOST_MOTIONS 9u  /* motions that stage 2 tries; the last is standing still */
 #define SAME_SHAPE 1e-3  /* relative to a shape's size squared */
 
 static uint64_t key_of(const struct scene *s, uint32_t instance, const void *with)
@@ -27,7 +28,7 @@ static int is_crowd(const struct group *g)
 
 /* --- Shapes ------------------------------------------------------------------------------------------------------ */
 
-/* The dot products of a modelview's columns, which motions do not change. */
+/* The dot products of a modelview's first three columns, which rigid motions do not change. */
 static void shape_of(const float m[16], double out[6])
 {
 	for (int k = 0, i = 0; i < 3; i++)
@@ -48,7 +49,7 @@ static int has_shape(const struct scene *s, uint32_t instance, const double shap
 	return off <= SAME_SHAPE * (shape[0] + shape[2] + shape[5]);
 }
 
-/* Stage 1. */
+/* Stage 1: couple draws whose shape no other draw of the crowd has, in either frame. */
 static void single_out(struct bridge *b, struct group *c)
 {
 	for (uint32_t k = 0; k < c->n; k++) {
@@ -152,14 +153,13 @@ static uint32_t nearest(const struct bridge *b, const struct group *c, uint32_t 
 	return best;
 }
 
-/* Stage 2. */
+/* Stage 2: couple members with the rival that a known motion takes them to; standing still is the last motion tried. */
 static void couple_by_motions(struct bridge *b, struct group *c)
 {
 	for (unsigned g = 0; g < b->n_motions + 1 && g < MOST_MOTIONS; g++)
 		for (uint32_t k = 0; k < c->n; k++) {
 			const struct scene_view *view = &b->base->views[b->base->instances[c->members[k]].view];
-			const int is_still = g == b->n_motions || g + 1 == MOST_MOTIONS; /* those that stand still
-			                                                                    come last */
+			const int is_still = g == b->n_motions || g + 1 == MOST_MOTIONS;
 			uint32_t rival;
 
 			if (group_is_coupled(b, c, k) || (!is_still && view->space != b->motions[g].space))
@@ -170,7 +170,7 @@ static void couple_by_motions(struct bridge *b, struct group *c)
 		}
 }
 
-/* 1 if nothing contradicts pairing the n-th with the n-th. */
+/* 1 if both frames have the same number, and every couple so far joins the n-th with the n-th. */
 static int keeps_order(const struct bridge *b, const struct group *c)
 {
 	uint32_t k = 0;
@@ -189,7 +189,7 @@ static double size_of(const struct bridge *b, uint32_t i)
 	return place.size;
 }
 
-/* Stage 3. */
+/* Stage 3: couple the rest, in order if that contradicts nothing, otherwise with the nearest. */
 static void couple_rest(struct bridge *b, struct group *c)
 {
 	const int keeps = keeps_order(b, c);

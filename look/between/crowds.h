@@ -1,6 +1,6 @@
 /*
- * Many draws of the same points, such as one wheel or crate at many places. A program may omit one of them, and the
- * n-th is then another one, so they are coupled in order of certainty:
+ * Crowds: many draws of the same points, such as a wheel or a crate at many places. If a program omits one of them, the
+ * n-th draw is another one than before. So they are coupled in order of certainty:
  *   1. draws whose shape in eye space is unique in both frames; motions do not change shapes
  *   2. draws that a motion of stage 1 or of single draws takes to their place
  *   3. the rest: the n-th with the n-th, if both frames have the same number and nothing above contradicts it;

@@ -1,3 +1,4 @@
+/* Finds cuts: samples the surface of one frame, and looks for each point in the other. */
 #include "look/between/bridge.h"
 
 #include <math.h>
@@ -6,14 +7,14 @@
 
 #define ALL_POINTS 32768u /* samples in a frame */
 #define MOST_POINTS 4096u /* samples in a triangle, at most */
-#define FAR 1.0           /* half the picture's width: the eye does not follow anything faster than this in a frame */
+#define FAR 1.0           /* half the picture's width: the eye does not follow what moves faster than this per frame */
 #define MOST_AREA 0.01    /* largest area of a point in the picture: a hundredth of a square half as wide as the
                              picture */
 
 /* A draw in one frame. */
 struct shown {
 	const struct scene_mesh *mesh;
-	double eye[16], projection[16];
+	double eye[16], projection[16]; /* eye: the modelview */
 };
 
 static struct shown shown_of(const struct scene *s, uint32_t instance)
@@ -26,7 +27,7 @@ static struct shown shown_of(const struct scene *s, uint32_t instance)
 	return d;
 }
 
-/* A triangle in clip space: the first corner, and the edges from it. */
+/* Transform a triangle to clip space: its first corner, and the two edges from it. */
 static void place(const struct shown *d, uint32_t triangle, double corner[4], double edge[2][4])
 {
 	double at[3][4];
@@ -48,7 +49,7 @@ static void place(const struct shown *d, uint32_t triangle, double corner[4], do
 
 /*
  * Project the point (u, v) of a triangle to the picture, which is 2 wide and 2 high.
- * @param area  receives the area of the triangle in the picture, were all of it projected as at this point
+ * @param area  receives the triangle's area in the picture, as if the scale at this point applied to all of it
  * @return 0: the point is behind the viewer
  */
 static int show(const double corner[4], const double edge[2][4], double u, double v, double out[2], double *area)
@@ -79,8 +80,12 @@ static void point_of(uint32_t k, double *u, double *v)
 	}
 }
 
-/* Add the visible area of a triangle, and the part that is not far away in another frame. @param was  NULL: it is not
- * there */
+/*
+ * Add up the visible area of a triangle, from n samples.
+ * @param was   the same draw in the other frame; NULL: it is not there
+ * @param all   raised by the area inside the picture
+ * @param kept  raised by the part of it that the other frame shows at most FAR away
+ */
 static void compare(const struct shown *now, const struct shown *was, uint32_t triangle, uint32_t n, double *all,
                     double *kept)
 {
@@ -103,7 +108,7 @@ static void compare(const struct shown *now, const struct shown *was, uint32_t t
 	}
 }
 
-/* 1 if a draw belongs to the world: solid, and placed without a program. */
+/* 1 for draws that count: depth-tested triangles in the window, not placed by a vertex program. */
 static int counts(const struct scene *s, uint32_t i)
 {
 	const struct scene_instance *in = &s->instances[i];

@@ -1,3 +1,4 @@
+/* Matches deforming draws by the cheapest alignment of both frames' orders. */
 #include "look/between/deforming.h"
 
 #include <math.h>
@@ -13,11 +14,11 @@
 #include "scene/box.h"
 
 #define ALONE 0.5 /* cost of a draw without a partner, if one frame has more of them */
-#define MOST_COMPARED (1u << 26) /* edges, over all pairs of a kind; above this, only the n-th are compared */
+#define MOST_COMPARED (1u << 26) /* edges, over all pairs of a kind; beyond, only the n-th draws of both are compared */
 
 /* --- Kinds ------------------------------------------------------------------------------------------------------- */
 
-/* The points of both frames. */
+/* Keys of the points (followed_points) that occur in each frame. */
 struct points {
 	const struct scene *base;
 	struct table of[2]; /* base and other frame: keys -> any value */
@@ -33,6 +34,8 @@ static int gather_points(struct table *t, const struct scene *s)
 	return err;
 }
 
+/* The kind of a draw: a hash of triangles and texture coordinates. 0: it does not deform, as the other frame has its
+ * points */
 static uint64_t kind_of(const struct scene *s, uint32_t instance, const void *with)
 {
 	const struct points *points = with;
@@ -76,7 +79,7 @@ static void measure_edges(const struct scene *s, uint32_t i, float *out)
 	}
 }
 
-/* The difference of lengths, as a share of the longer ones. */
+/* The sum of differences of edge lengths, as a share of the sum of the longer ones: 0 to 1. */
 static double stretch(const float *a, const float *b, size_t n)
 {
 	double off = 0, all = 0;
@@ -126,17 +129,19 @@ static int measure(struct kind *kind)
 	return 0;
 }
 
+/* The distance between a member and a rival. */
 static double way_of(const struct kind *kind, uint32_t member, uint32_t rival)
 {
 	return place_way(&kind->places[member], &kind->places[kind->g->n + rival]);
 }
 
+/* The size of the larger one. */
 static double size_of(const struct kind *kind, uint32_t member, uint32_t rival)
 {
 	return fmax(kind->places[member].size, kind->places[kind->g->n + rival].size);
 }
 
-/* The cost of a couple. INFINITY: they cannot be one */
+/* The cost of a couple, as in deforming.h. INFINITY: they cannot be one */
 static double price(const struct kind *kind, uint32_t member, uint32_t rival)
 {
 	const struct group *g = kind->g;
@@ -153,9 +158,9 @@ static double price(const struct kind *kind, uint32_t member, uint32_t rival)
 
 /*
  * The cheapest alignment of members and rivals (Needleman and Wunsch 1970), from the last ones to the first.
- * @param steps  [n + 1][n_rivals + 1]: the next step from a position in both: 0: couple them, 1: skip the member, 2:
- * skip
- *               the rival
+ * @param steps  [n + 1][n_rivals + 1]: receives the next step from each position in both: 0 couples them, 1 skips the
+ *               member, 2 skips the rival
+ * @param row    [n_rivals + 1]: working memory
  */
 static void align(const struct kind *kind, unsigned char *steps, double *row)
 {
@@ -230,13 +235,14 @@ static void couple_partners(const struct kind *kind, const uint32_t *partners)
 		couple_partner(kind, i, partners[i], &back);
 }
 
+/* Undo the couples of a kind. */
 static void part(struct bridge *b, const struct group *g)
 {
 	for (uint32_t k = 0; k < g->n; k++)
 		group_part(b, g->members[k]);
 }
 
-/* @return 0 or ERR_SYSTEM (reported) */
+/* Couple the draws of a kind. @return 0 or ERR_SYSTEM (reported) */
 static int couple_kind(struct bridge *b, struct group *g)
 {
 	struct kind kind = { .b = b, .g = g, .alone = g->n == g->n_rivals ? 2 * ALONE : ALONE };

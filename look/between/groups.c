@@ -5,13 +5,13 @@
 #include "base/memory.h"
 #include "base/table.h"
 
-/* The draws of a frame by key: the first + 1, and the next after each. */
+/* The draws of a frame, a linked list for each key. */
 struct lists {
-	struct table first;
-	uint32_t *next; /* [instances]: the next one, or SCENE_NONE */
+	struct table first; /* key -> instance + 1 */
+	uint32_t *next;     /* [instances]: the next one, or SCENE_NONE */
 };
 
-/* @return 0 or ERR_SYSTEM (reported) */
+/* List the draws of a frame by key. @return 0 or ERR_SYSTEM (reported) */
 static int sort(const struct scene *s, groups_key *key_of, const void *with, struct lists *l)
 {
 	int err = 0;
@@ -61,7 +61,7 @@ static void free_group(struct group *g)
 	free(g->is_taken);
 }
 
-/* @return 0 or ERR_SYSTEM (reported) */
+/* Append the group of a key. @return 0 or ERR_SYSTEM (reported) */
 static int add_group(struct groups *groups, const struct lists *own, const struct lists *others, uint64_t key)
 {
 	struct group g;

@@ -1,11 +1,11 @@
-/* Draws of two frames, grouped by a key, in the order of each frame. */
+/* Groups of draws with the same key in two frames, each in the order of its frame: candidates for couples. */
 #pragma once
 
 #include "look/between/bridge.h"
 
 struct group {
 	uint32_t *members, *rivals; /* [n], [n_rivals]: instances of the base and of the other frame, in order */
-	uint8_t *is_taken;          /* [n_rivals] */
+	uint8_t *is_taken;          /* [n_rivals]: 1 if coupled */
 	uint32_t n, n_rivals;
 };
 
@@ -28,7 +28,8 @@ void groups_free(struct groups *groups);
 
 /** Couple a member and a rival of a group, given their positions in it. */
 void group_couple(struct bridge *b, struct group *g, uint32_t member, uint32_t rival);
+/** 1 if a member has a partner. */
 int group_is_coupled(const struct bridge *b, const struct group *g, uint32_t member);
 
-/** Undo a draw's couple, which is then chosen among several. */
+/** Undo the couple of an instance of the base, whose partner is to be chosen among several. */
 void group_part(struct bridge *b, uint32_t i);

@@ -12,8 +12,9 @@
 #include "look/draws/matrix.h"
 #include "scene/program.h"
 
-#define STANDS 1e-4 /* tolerance for a light that the camera's motion leaves in place, relative to its distance */
+#define STAYS 1e-4 /* tolerance for a light that moves like static things, relative to its distance */
 
+/* Interpolate n numbers in place. Equal ones, and results that are not finite, stay the base's. */
 static void mix(float *base, const float *other, size_t n, float share)
 {
 	for (size_t i = 0; i < n; i++) {
@@ -24,6 +25,7 @@ static void mix(float *base, const float *other, size_t n, float share)
 	}
 }
 
+/* The key of a pair in a table; never 0. */
 static uint64_t pair_of(uint32_t base, uint32_t other)
 {
 	return ((uint64_t)base << 32 | other) + 1;
@@ -38,6 +40,7 @@ static int is_known(const struct table *known, uint32_t base, uint32_t other, ui
 	return found != 0;
 }
 
+/* Remember the number of a mixed pair. @return it; SCENE_NONE: no memory (reported) */
 static uint32_t note(struct table *known, uint32_t base, uint32_t other, uint32_t number)
 {
 	return table_set(known, pair_of(base, other), (void *)((uintptr_t)number + 1)) ? SCENE_NONE : number;
@@ -76,6 +79,7 @@ static uint32_t mix_program(struct mixer *m, uint32_t base, uint32_t other)
 
 /* --- Materials --------------------------------------------------------------------------------------------------- */
 
+/* Interpolate a light's position: along the camera's motion if the light moves like static things, else linearly. */
 static void place_light(const struct mixer *m, struct scene_light *out, const struct scene_light *other)
 {
 	const struct scene_light *first = m->is_back ? other : out, *second = m->is_back ? out : other;
@@ -93,7 +97,7 @@ static void place_light(const struct mixer *m, struct scene_light *out, const st
 		off = fmax(off, fabs(moved[k] - to[k]));
 		far = fmax(far, fabs(to[k]));
 	}
-	if (off > STANDS * far)
+	if (off > STAYS * far)
 		return;
 	matrix_transform(moved, m->camera_part, from);
 	for (int k = 0; k < 4; k++)

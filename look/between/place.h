@@ -9,10 +9,11 @@ struct place {
 };
 
 /**
+ * Find the place of a draw.
  * @param box     of the mesh, [low, high]
  * @param motion  takes the draw to another eye space, or NULL
  */
 void place_find(const struct scene_instance *in, const float box[2][3], const double *motion, struct place *out);
 
-/** The distance between corresponding corners, for the pair that is farthest apart. */
+/** The largest distance between corresponding corners of two boxes. */
 double place_way(const struct place *a, const struct place *b);

@@ -6,7 +6,7 @@
 #include "look/draws/matrix.h"
 
 #define MOST_STEPS 64 /* the polar decomposition needs about ten */
-#define AFFINE 1e-6   /* tolerance for the last row, relative to its last number */
+#define AFFINE 1e-6   /* tolerance for the last row's first three numbers, relative to the fourth */
 
 /* A rotation by `angle`, 0 to pi, about a unit vector. */
 struct turn {
@@ -27,8 +27,8 @@ static void transform3(double out[3], const double m[9], const double v[3])
 		out[r] = m[r] * v[0] + m[3 + r] * v[1] + m[6 + r] * v[2];
 }
 
-/* The inverse transpose. @return the determinant; if it is 0, out is undefined */
-static double cofactors(double out[9], const double m[9])
+/* out = the inverse of m, transposed. @return the determinant of m; if it is 0, out is undefined */
+static double inverse_transpose(double out[9], const double m[9])
 {
 	double determinant;
 
@@ -54,7 +54,7 @@ static int nearest_rotation(double out[9], const double m[9])
 	for (int step = 0; step < MOST_STEPS && change > 1e-14; step++) {
 		double other[9];
 
-		if (!(cofactors(other, out) > 1e-30))
+		if (!(inverse_transpose(other, out) > 1e-30))
 			return 0;
 		change = 0;
 		for (int i = 0; i < 9; i++) {
@@ -67,7 +67,8 @@ static int nearest_rotation(double out[9], const double m[9])
 	return change <= 1e-10;
 }
 
-/* Uses the unit quaternion, starting from the largest of its four numbers. */
+/* The axis and angle of a rotation, from a multiple of its unit quaternion: the products of the quaternion's largest
+ * number with all four, for precision. */
 static struct turn turn_of(const double r[9])
 {
 	const double squares[4] = { 1 + r[0] + r[4] + r[8], 1 + r[0] - r[4] - r[8], 1 - r[0] + r[4] - r[8],
@@ -108,6 +109,7 @@ static void about(double out[9], const double axis[3], double a, double b, doubl
 		out[i] = (i % 4 ? 0 : a) + b * k[i] + c * square[i];
 }
 
+/* The rotation by an angle about t's axis (Rodrigues' formula). */
 static void rotation(double out[9], const struct turn *t, double angle)
 {
 	about(out, t->axis, 1, sin(angle), 1 - cos(angle));

@@ -3,6 +3,7 @@
 
 #include "scene/scene.h"
 
+/* Position of a corner (0 to 2): x, y, z, w. */
 static inline const float *corner_place(const struct scene_mesh *mesh, uint32_t primitive, unsigned corner)
 {
 	return mesh->position + 4 * (size_t)mesh->index[3 * (size_t)primitive + corner];

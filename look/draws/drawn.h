@@ -1,9 +1,9 @@
-/* How a draw is made, for questions shared by rules and studies. */
+/* Properties of a draw's state that rules and studies ask for. */
 #pragma once
 
 #include "scene/scene.h"
 
-/** 1 if a view is in parallel projection. */
+/** 1 if a view's projection is parallel. */
 int drawn_in_parallel(const struct scene_view *view);
 
 /** 1 if a projection mirrors: triangles that run clockwise in eye space run counterclockwise in the window. */

@@ -5,16 +5,17 @@
 #include "base/mat4.h"
 #include "gl_tokens.h"
 
-#define MOST_ALPHA 0.5f
-/* A label has at most this many triangles, and the distances of its points are equal up to a share. */
-enum { LABEL_PRIMITIVES = 64 };
-#define ACROSS 1e-4f
+#define MOST_ALPHA 0.5f /* a shell's alpha is below this */
+enum { LABEL_PRIMITIVES = 64 }; /* triangles of a label, at most */
+#define ACROSS 1e-4f /* tolerance for the depths of a label's points, which must be equal; as a share */
 
+/* 1 for lit draws without texture that let more than half of the background through. */
 static int is_shell(const struct scene_material *m, const struct scene_mesh *mesh)
 {
 	return m->lighting && !m->unit_count && !m->color_material && !mesh->face && m->front.diffuse[3] < MOST_ALPHA;
 }
 
+/* 1 for unlit, textured draws perpendicular to the view. */
 static int is_label(const struct scene_material *m, const struct scene_mesh *mesh,
                     const struct scene_instance *instance)
 {

@@ -21,7 +21,7 @@ void followed_free(struct followed *p);
 /** The key of a mesh's points. */
 uint64_t followed_points(const struct scene_mesh *mesh);
 
-/** The key of a mesh's triangles: which points each has, wherever these are. */
+/** The key of a mesh's triangles: the numbers of their points, wherever these are. */
 uint64_t followed_triangles(const struct scene_mesh *mesh);
 
 /**

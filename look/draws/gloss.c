@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-/* A specular colour is coloured if its components differ by at least this share of the largest. */
+/* A specular colour is not grey if its components differ by more than this share of the largest. */
 #define COLORED 0.15f
-#define NO_METAL 0.1f
+#define NO_METAL 0.1f /* factor for other surfaces than metals */
 /* Reflections below this are ignored: one step of 8 bits, if white is reflected. */
 #define LEAST 0.004f
 /* One ray per pixel is too noisy for rougher surfaces. */

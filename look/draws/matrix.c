@@ -1,3 +1,4 @@
+/* Arithmetic on 4 x 4 matrices of doubles: products, the inverse, null vectors. */
 #include "look/draws/matrix.h"
 
 #include <math.h>
@@ -18,7 +19,7 @@ void matrix_mul(double out[16], const double a[16], const double b[16])
 			out[4 * c + r] = a[r] * b[4 * c] + a[4 + r] * b[4 * c + 1] + a[8 + r] * b[4 * c + 2] + a[12 + r] * b[4 * c + 3];
 }
 
-/* Exchange two columns of n numbers, 4 apart. */
+/* Exchange columns a and b of a 4 x 4 matrix. */
 static void exchange(double *m, int a, int b)
 {
 	for (int r = 0; r < 4 && a != b; r++) {
@@ -29,7 +30,10 @@ static void exchange(double *m, int a, int b)
 	}
 }
 
-/* Gauss-Jordan elimination on columns, with the largest pivot of each row. */
+/*
+ * Gauss-Jordan elimination on columns, with the largest pivot of each row. A matrix counts as singular if a pivot is at
+ * most 1e-12 of its largest element.
+ */
 int matrix_invert(double out[16], const double m[16])
 {
 	double a[16], largest = 0;
@@ -109,7 +113,12 @@ double matrix_scale(const double m[16])
 	return longest;
 }
 
-/* Jacobi rotations make a symmetric matrix diagonal; the columns of v are its eigenvectors. */
+/*
+ * Make a symmetric matrix diagonal by Jacobi rotations (Press et al., "Numerical Recipes", sec. 11.1): each makes the
+ * elements pq and qp of a zero; t, c and s are its tangent, cosine and sine.
+ * @param a  receives the eigenvalues on its diagonal
+ * @param v  receives the eigenvectors, as columns
+ */
 static void jacobi(double a[16], double v[16])
 {
 	memcpy(v, matrix_identity, 16 * sizeof(*v));
@@ -124,7 +133,7 @@ static void jacobi(double a[16], double v[16])
 				t = (theta < 0 ? -1 : 1) / (fabs(theta) + sqrt(theta * theta + 1));
 				c = 1 / sqrt(t * t + 1);
 				s = t * c;
-				for (int k = 0; k < 4; k++) { /* columns, then rows */
+				for (int k = 0; k < 4; k++) { /* columns of a and v, then rows of a */
 					double x = a[4 * p + k], y = a[4 * q + k];
 
 					a[4 * p + k] = c * x - s * y;
@@ -148,6 +157,7 @@ double matrix_null(double out[4], const double m[16], int left)
 	double square[16], v[16], largest = 0, y[4], length = 0;
 	int least = 0;
 
+	/* M^T M, or M M^T for v M: its eigenvalues are the squares of the lengths that M gives its eigenvectors. */
 	for (int c = 0; c < 4; c++)
 		for (int r = 0; r < 4; r++) {
 			square[4 * c + r] = 0;
@@ -161,6 +171,7 @@ double matrix_null(double out[4], const double m[16], int left)
 			least = c;
 	}
 	memcpy(out, v + 4 * least, 4 * sizeof(*out));
+	/* The length of M v: the root of the least eigenvalue would be less exact. */
 	for (int r = 0; r < 4; r++) {
 		y[r] = 0;
 		for (int k = 0; k < 4; k++)

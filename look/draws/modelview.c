@@ -13,7 +13,8 @@ enum modelview_kind modelview_named(const char *name)
 	return kind;
 }
 
-/* The volume spanned by three columns, relative to orthogonal columns of the same lengths. */
+/* The volume that the first three columns span, relative to orthogonal columns of the same lengths. Below 0 if they
+ * swap left and right hands. */
 static double fullness3(const float *m)
 {
 	double volume = (double)m[0] * ((double)m[5] * m[10] - (double)m[6] * m[9]) -
@@ -26,8 +27,8 @@ static double fullness3(const float *m)
 	return most > 0 ? volume / most : 0;
 }
 
-/* The same for four columns, with w in units of the distance to the origin, so that distant things do not count as
- * flat. */
+/* The same for four columns, without the sign. w is in units of the distance to the origin, so that distant things do
+ * not count as flat. */
 static double fullness4(const float *m)
 {
 	double a[16], far = sqrt((double)m[12] * m[12] + (double)m[13] * m[13] + (double)m[14] * m[14]), volume = 1, most = 1;

@@ -6,7 +6,7 @@
 
 #include "base/err.h"
 
-/* Only positions count: the other attributes of vertices may differ between draws. */
+/* A hash of the positions of all corners. The other attributes of vertices may differ between draws. */
 static uint64_t hash_points(const struct scene_mesh *mesh)
 {
 	XXH3_state_t state;

@@ -5,7 +5,7 @@
 
 #include "base/mat4.h"
 
-#define MOST_POINTS 0.9f
+#define MOST_POINTS 0.9f /* share of the points that must lie in the plane */
 #define OFF 1e-3f /* tolerance, as a share of a point's distance */
 
 int plane_holds(const struct scene *scene, const struct scene_instance *instance, const float plane[4])
