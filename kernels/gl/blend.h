@@ -1,7 +1,9 @@
 /*
- * Blending (GL 2.1 sec. 4.1.8) as in a frame buffer of 8 bits per channel, in 8-bit integers: the source is rounded
- * before blending, not after. The specification leaves the arithmetic open. This is llvmpipe's (Mesa 22.3.6): trails
- * and clouds of particles blend many times, and must not drift away from the program's own picture.
+ * Blending (GL 2.1 sec. 4.1.8) in frame buffers of 8 bits per channel, of floats, and of sRGB.
+ *
+ * With 8 bits, it computes in 8-bit integers: the source is rounded before blending, not after. The specification
+ * leaves the arithmetic open. This is llvmpipe's (Mesa 22.3.6): trails and clouds of particles blend many times, and
+ * must not drift away from the program's own picture.
  */
 #pragma once
 
@@ -10,7 +12,7 @@
 
 #include "kernels/gl/blend_lanes.h"
 
-/* Blend a source colour over a destination, by a material's factors and equations. */
+/* Blend a source colour over a destination, by a material's factors and equations: 8 bits per channel. */
 static inline struct vec4 blend_colors(GLOBAL const struct scene_material *m, struct vec4 source,
                                        struct vec4 destination)
 {
@@ -24,6 +26,7 @@ static inline struct vec4 blend_colors(GLOBAL const struct scene_material *m, st
 
 /* --- Frame buffers of floats: the same, without rounding --------------------------------------------------------- */
 
+/* A factor's value for all channels (table 4.2). s, d: source and destination; c: the blend colour */
 static inline struct vec4 blend_float_factor(uint32_t factor, struct vec4 s, struct vec4 d, struct vec4 c)
 {
 	struct vec4 one = v4(1.0f, 1.0f, 1.0f, 1.0f);
@@ -50,6 +53,7 @@ static inline struct vec4 blend_float_factor(uint32_t factor, struct vec4 s, str
 	}
 }
 
+/* One channel by a blend equation (table 4.1). fs, fd: the factors of s and d, which GL_MIN and GL_MAX ignore */
 static inline float blend_float_equation(uint32_t equation, float s, float fs, float d, float fd)
 {
 	switch (equation) {
@@ -61,20 +65,23 @@ static inline float blend_float_equation(uint32_t equation, float s, float fs, f
 	}
 }
 
+/* Blend a source colour over a destination, as blend_colors does. Nothing is clamped. */
 static inline struct vec4 blend_floats(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
 {
 	struct vec4 c = v4_load(m->blend_color);
 	struct vec4 fs = blend_float_factor(m->blend_src_rgb, s, d, c), fd = blend_float_factor(m->blend_dst_rgb, s, d, c);
-	struct vec4 as = blend_float_factor(m->blend_src_alpha, s, d, c), ad = blend_float_factor(m->blend_dst_alpha, s, d, c);
+	struct vec4 fs_alpha = blend_float_factor(m->blend_src_alpha, s, d, c);
+	struct vec4 fd_alpha = blend_float_factor(m->blend_dst_alpha, s, d, c);
 
 	return v4(blend_float_equation(m->blend_equation_rgb, s.x, fs.x, d.x, fd.x),
 	          blend_float_equation(m->blend_equation_rgb, s.y, fs.y, d.y, fd.y),
 	          blend_float_equation(m->blend_equation_rgb, s.z, fs.z, d.z, fd.z),
-	          blend_float_equation(m->blend_equation_alpha, s.w, as.w, d.w, ad.w));
+	          blend_float_equation(m->blend_equation_alpha, s.w, fs_alpha.w, d.w, fd_alpha.w));
 }
 
-/* --- sRGB frame buffers: as in llvmpipe (22.3.6, lp_bld_format_srgb.c), to half a code --------------------------- */
+/* --- sRGB frame buffers: llvmpipe's approximations (22.3.6, lp_bld_format_srgb.c), exact to half a code ---------- */
 
+/* Linear light, [0,1], of a code, 0 to 255: a line, then a cubic, whose even and odd powers are summed apart. */
 static inline float blend_linear_from_code(uint32_t code)
 {
 	const float x = (float)code, x2 = x * x;
@@ -84,7 +91,8 @@ static inline float blend_linear_from_code(uint32_t code)
 	return code <= 15u ? x * (1.0f / (12.6f * 255.0f)) : M_FMA(odd, x, even);
 }
 
-/* In units of 1/255, not rounded. */
+/* The inverse, for linear light clamped to [0,1]: code / 255, not rounded. Above the line, x^(1/2.4) is a mixture of
+ * x^0.375 (`power`) and x^0.5 (`root`). */
 static inline float blend_code_from_linear(float linear)
 {
 	const float x = clamp01(linear), root = M_SQRT(x), power = M_SQRT(M_SQRT(root * x));

@@ -1,11 +1,12 @@
 /* 8-bit blending (blend.h, one_lanes.h). */
 
+/* A channel in 1/255, clamped and rounded. */
 LANES WORD blend_round(REAL x)
 {
 	return AS_WORD(TO_INT(ROUND(clamp01(x) * 255.0f)));
 }
 
-/* A product of two numbers that represent [0,1]. Both products of a sum are rounded before they are added. */
+/* The product of two numbers in 1/255, rounded. Both products of a sum are rounded before they are added. */
 LANES WORD blend_multiply(WORD a, WORD b)
 {
 	WORD ab = a * b;
@@ -13,7 +14,7 @@ LANES WORD blend_multiply(WORD a, WORD b)
 	return (ab + (ab >> 8) + 128u) >> 8;
 }
 
-/* Operands of factors: a channel of the source, destination and constant colour, and their alphas. */
+/* Operands of blend factors: one channel of the source, destination and constant colour, and their alphas. */
 struct LANED(blend8) {
 	WORD s, s_alpha, d, d_alpha; /* 0 to 255 */
 	REAL c, c_alpha;             /* not rounded yet: few factors use them */
@@ -44,6 +45,7 @@ LANES WORD blend_factor(uint32_t factor, const struct LANED(blend8) *of)
 	}
 }
 
+/* One channel by a blend equation (table 4.1), clamped. fs, fd: factors of s and d, which GL_MIN and GL_MAX ignore */
 LANES WORD blend_equation(uint32_t equation, WORD s, WORD fs, WORD d, WORD fd)
 {
 	WORD a = blend_multiply(s, fs), b = blend_multiply(d, fd);

@@ -11,7 +11,7 @@
 #include "kernels/common.h"
 #include "kernels/gl/blend.h"
 
-/* Maps floats to integers of the same order. */
+/* Map a float to an integer, so that integers compare as the floats do. */
 static inline uint32_t pixel_order(float x)
 {
 	uint32_t bits = M_BITS(x + 0.0f); /* so that there is a single zero */
@@ -19,6 +19,7 @@ static inline uint32_t pixel_order(float x)
 	return bits >> 31 ? ~bits : bits | 0x80000000u;
 }
 
+/* The largest number that fits into `bits` bits. */
 static inline uint32_t pixel_bits_mask(uint32_t bits)
 {
 	return bits >= 32u ? 0xffffffffu : (1u << bits) - 1u;
@@ -28,6 +29,7 @@ static inline uint32_t pixel_bits_mask(uint32_t bits)
 
 /* --- Stencil (sec. 4.1.5) ---------------------------------------------------------------------------------------- */
 
+/* A stencil value after an operation. bits: of the stencil buffer */
 static inline uint32_t pixel_stencil_apply(uint32_t op, uint32_t value, uint32_t ref, uint32_t write_mask,
                                            uint32_t bits)
 {
@@ -48,6 +50,7 @@ static inline uint32_t pixel_stencil_apply(uint32_t op, uint32_t value, uint32_t
 
 /* --- Logic operation (sec. 4.1.10) ------------------------------------------------------------------------------- */
 
+/* One channel, in [0,1], by a logic operation on its 8-bit codes. */
 static inline float pixel_logic(uint32_t op, float source, float destination)
 {
 	uint32_t s = (uint32_t)M_RINT(source * 255.0f), d = (uint32_t)M_RINT(destination * 255.0f), out = s;
@@ -75,6 +78,7 @@ static inline float pixel_logic(uint32_t op, float source, float destination)
 
 /* --- Storing one colour ------------------------------------------------------------------------------------------ */
 
+/* A channel as a frame buffer of 8 bits stores it. */
 static inline float pixel_stored(float x)
 {
 	return M_RINT(clamp01(x) * 255.0f) / 255.0f;
@@ -105,6 +109,7 @@ static inline struct vec4 pixel_encoded(GLOBAL const struct scene_material *m, s
 	return v4(blend_code_from_linear(s.x), blend_code_from_linear(s.y), blend_code_from_linear(s.z), s.w);
 }
 
+/* A source colour after blending or the logic operation over a destination; before it is stored. */
 static inline struct vec4 pixel_blended(GLOBAL const struct scene_material *m, struct vec4 s, struct vec4 d)
 {
 	if (m->srgb && !m->floats && !m->logic_op)
@@ -195,7 +200,7 @@ static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL cons
 	                                    m->floats ? pixel_order(m->alpha_ref) : blend_round(m->alpha_ref)))
 		return 0;
 	/* Multisample fragment operations (sec. 4.1.3). The specification does not say which samples an alpha covers; these
-     * are llvmpipe's, for four samples. */
+	 * are llvmpipe's, for four samples. */
 	if (m->samples_off >> pixel_sample(bits) & 1u ||
 	    (m->alpha_to_coverage && !(s->gl[3] > 0.25f * (float)pixel_sample(bits))))
 		return 0;
@@ -217,6 +222,7 @@ static inline int pixel_tests(GLOBAL const struct scene_material *m, GLOBAL cons
 	return pass;
 }
 
+/* Store the channels that the colour mask allows. */
 static inline void pixel_store(GLOBAL float *out, struct vec3 color, uint32_t mask)
 {
 	if (mask & 1u)
@@ -227,7 +233,10 @@ static inline void pixel_store(GLOBAL float *out, struct vec3 color, uint32_t ma
 		out[2] = color.z;
 }
 
-/* Blend one part of a fragment's colour over the same part of the pixel. */
+/*
+ * Blend a fragment's colour over a pixel's, at one of the steps from GL's colours to the beauty. alpha: the pixel's;
+ * opaque: 1: it replaces the pixel's, whatever the material says
+ */
 static inline void pixel_part(GLOBAL const struct scene_material *m, GLOBAL const float *source, float source_alpha,
                               float alpha, GLOBAL float *destination, int opaque)
 {
@@ -415,6 +424,7 @@ static inline void pixel_merge(GLOBAL const struct frame_pixel *first, GLOBAL co
 	out->id = from[surface]->id;
 }
 
+/* Apply a clear (sec. 4.2.3) to a pixel: colours, depth and stencil as clear->buffers says. */
 static inline void pixel_clear(const struct scene_clear *clear, GLOBAL struct frame_pixel *pixel, uint32_t bits)
 {
 	if (clear->buffers & 1u) {

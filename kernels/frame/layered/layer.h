@@ -1,24 +1,29 @@
 /*
- * Fragments of a row of sixteen pixels, layer by layer (kernels/frame/layered/layered.cl): how they are loaded, tested
- * and blended. OpenCL C only.
+ * Fragments of a row of sixteen pixels, layer by layer: how layered.cl loads, tests and blends them. Layer i holds the
+ * i-th fragment of each pixel, in draw order. OpenCL C only.
  */
 #pragma once
 
 #include "kernels/frame/pack/pack_blend.h"
 #include "kernels/frame/plain/plain_row.h"
 
-/* One fragment of each pixel. Masks have one bit per lane. */
+/* One layer: at most one fragment of each pixel. Masks have one bit per lane. */
 struct layer {
 	struct plain_row at;
-	struct plain_colors colors;   /* colours of the shaded fragments */
-	packf mirrored[3], beauty[3]; /* the same, in step PLAIN_MIRROR */
+	struct plain_colors colors;   /* colours of the fragments in `shaded` */
+	packf mirrored[3], beauty[3]; /* theirs with the light that their paths found; set if row.is_mirrored */
 	packf depth;
 	struct pack pack; /* the fragments in `placed`, all of one material */
-	uint there, placed, drawn, shaded, covered; /* drawn: passed all tests; covered: hidden by a later one */
-	uint leaves;        /* fragments with paths */
-	uint look;          /* the look that found these fragments */
-	uint from, slots;   /* index of the first pixel's fragment in a->sparse; distance to the next pixel's */
-	int asks, follows;  /* 1: fragments may send rays to lights; may send paths */
+	uint there;       /* mask: pixels that have a fragment */
+	uint placed;      /* mask: fragments that `pack` holds */
+	uint drawn;       /* mask: passed all tests, and may write colours */
+	uint shaded;      /* mask: colours are known */
+	uint covered;     /* mask: pixels where later layers leave nothing of this one */
+	uint leaving;     /* mask: visible fragments that light leaves, as they mirror or transmit it */
+	uint look;        /* the look that found these fragments */
+	uint from, slots; /* index of the first pixel's fragment in a->sparse; distance to the next pixel's */
+	int sends_rays;   /* 1: fragments send rays to lights, if these light them */
+	int may_leave;    /* 1: light may leave fragments */
 };
 
 /* State of a row of sixteen pixels. */
@@ -26,12 +31,13 @@ struct layered_row {
 	struct layer layers[PLAIN_LAYERS];
 	struct pack_pixels pixels;
 	packu depth;         /* in the depth buffer's format */
-	uint step;           /* PLAIN_* */
+	uint step;           /* PLAIN_FIRST, PLAIN_SHADOW, PLAIN_MIRROR */
 	packu last, surface; /* layer of the last fragment drawn, and of the visible surface; SCENE_NONE: none */
-	uint n;
-	uint unknown;    /* a bit for each pixel that shows colours from before the frame which are not known */
+	uint n;          /* number of layers */
+	uint unknown;    /* mask: pixels that still show colours from before the frame, which are not known */
 	int is_mirrored; /* 1: mirrored and beauty differ from direct */
-	int at_once;     /* 1: layers are shaded and drawn as they are tested: the previous row had none covered */
+	int at_once;     /* 1: each layer is shaded and drawn as soon as it is tested. Set by a row of the block where all
+	                    drawn fragments had to be shaded */
 };
 
 /* --- Loading ----------------------------------------------------------------------------------------------------- */
@@ -51,6 +57,7 @@ static inline packu load_counts(const struct plain_arguments *a, uint look, uint
 	return n;
 }
 
+/* The largest of sixteen numbers. */
 static inline uint most_of(packu n)
 {
 	uint most = 0;
@@ -60,12 +67,15 @@ static inline uint most_of(packu n)
 	return most;
 }
 
-/* Index range of a block's layers. */
+/* The layers of a block (PLAIN_ROWS rows of sixteen pixels). */
 struct layered_block {
-	uint x, y; /* its first pixel */
-	uint place, most[PLAIN_LOOKS], n; /* index of its first layer; number of layers per look; their sum */
+	uint x, y;              /* its first pixel */
+	uint place;             /* index of its first layer; SCENE_NONE: it has no fragments */
+	uint most[PLAIN_LOOKS]; /* number of layers of each look */
+	uint n;                 /* their sum */
 };
 
+/* Find the layers of block number `item`. */
 static inline void load_block(const struct plain_arguments *a, uint item, struct layered_block *b)
 {
 	b->x = item % plain_columns(a->width) * PLAIN_WIDTH;
@@ -100,7 +110,7 @@ WIDE_VECTORS static inline void load_layer(const struct plain_arguments *a, stru
 	*(pack_loose_floats *)list->depth = last[3];
 }
 
-/* Load the layers of a row. row: with its step set. @return 1 if this step changes any of them */
+/* Load the layers of row y. row: with its step set. @return not 0 if this step changes any of them */
 static inline uint load_layers(const struct plain_arguments *a, const struct layered_block *b, uint y,
                                struct layered_row *row)
 {
@@ -121,20 +131,22 @@ static inline uint load_layers(const struct plain_arguments *a, const struct lay
 			layer->at.base = plain_base(place + i, y);
 			layer->slots = slots;
 			layer->from = (plain_look_first(a->layers.columns, look, n_pixels) + y * a->width + b->x) * slots + i;
-			layer->follows = a->layers.asking >> look & 1;
-			layer->asks = layer->follows && a->n_slots;
+			layer->may_leave = a->layers.asking >> look & 1;
+			layer->sends_rays = layer->may_leave && a->n_slots;
 			layer->there = pack_bits(counts > i);
 			layer->placed = layer->drawn = layer->shaded = layer->covered = 0;
 			load_layer(a, layer);
-			layer->at.dimmed = row->step != PLAIN_FIRST && layer->asks ? plain_dimmed(a, layer->at.base, layer->there) : 0;
-			layer->leaves = row->step != PLAIN_FIRST && a->layers.mirrors ? a->layers.leaving[layer->at.base / PACK_SIZE] : 0;
-			changed |= layer->leaves | (row->step == PLAIN_SHADOW ? layer->at.dimmed : 0);
+			layer->at.dimmed =
+				row->step != PLAIN_FIRST && layer->sends_rays ? plain_dimmed(a, layer->at.base, layer->there) : 0;
+			layer->leaving =
+				row->step != PLAIN_FIRST && a->layers.mirrors ? a->layers.leaving[layer->at.base / PACK_SIZE] : 0;
+			changed |= layer->leaving | (row->step == PLAIN_SHADOW ? layer->at.dimmed : 0);
 		}
 	}
 	return changed;
 }
 
-/* Initialise a block's row: no rays to lights yet, and no light leaves it. */
+/* Initialise what a row of a block sends: no rays to lights, and no fragment that light leaves. */
 static inline void send_none(const struct plain_arguments *a, const struct layered_block *b, uint y)
 {
 	for (uint i = 0; i < b->n && a->layers.mirrors; i++)
@@ -166,10 +178,11 @@ WIDE_VECTORS static inline void clear_pixels(__global const struct frame_pixel *
 /* Values kept for a row's pixels from round to round. */
 struct layered_kept_row {
 	struct pack_pixels pixels;
-	packu depth, shows; /* shows: 1 if a surface is visible, plus 2 if unknown colours from before are */
+	packu depth; /* in the depth buffer's format */
+	packu shows; /* bits: 1: a surface is visible; 2: colours from before the frame are, which are not known */
 };
 
-#define KEPT_PACKS (sizeof(struct layered_kept_row) / sizeof(packf)) /* this equals PLAIN_KEPT */
+#define KEPT_PACKS (sizeof(struct layered_kept_row) / sizeof(packf)) /* PLAIN_KEPT, the numbers stored per pixel */
 
 WIDE_VECTORS static inline void load_kept(__global const float *from, struct layered_kept_row *row)
 {
@@ -177,6 +190,7 @@ WIDE_VECTORS static inline void load_kept(__global const float *from, struct lay
 		((packf *)row)[i] = ((__global const pack_loose_floats *)from)[i];
 }
 
+/* Start the pixels of a row: cleared in the first round, otherwise as the last round left them. */
 WIDE_VECTORS static inline void begin_pixels(const struct plain_arguments *a, uint x, uint y, struct layered_row *row)
 {
 	struct layered_kept_row before;
@@ -190,7 +204,7 @@ WIDE_VECTORS static inline void begin_pixels(const struct plain_arguments *a, ui
 	load_kept(a->layers.before + plain_kept(a->width, x, y), &before);
 	row->pixels = before.pixels;
 	row->depth = before.depth;
-	row->surface -= before.shows & 1; /* not a layer of this round */
+	row->surface -= before.shows & 1; /* SCENE_NONE - 1: there is a surface, but no layer of this round shows it */
 	row->unknown = pack_bits((before.shows & 2) != 0);
 }
 
@@ -200,6 +214,7 @@ WIDE_VECTORS static inline void store_kept(__global float *to, const struct laye
 		((__global pack_loose_floats *)to)[i] = ((const packf *)row)[i];
 }
 
+/* Store the pixels of a row for the next round. */
 WIDE_VECTORS static inline void keep_pixels(const struct plain_arguments *a, uint x, uint y,
                                             const struct layered_row *row)
 {
@@ -214,8 +229,10 @@ WIDE_VECTORS static inline void keep_pixels(const struct plain_arguments *a, uin
 
 /* --- Clears ------------------------------------------------------------------------------------------------------ */
 
-/* Apply the depth clears before a look, starting with number `next`. x, y: position of the row. @return the number of
- * the first clear that remains */
+/*
+ * Apply the depth clears that precede a look, starting with number `next`. x, y: position of the row.
+ * @return the number of the first clear that remains
+ */
 WIDE_VECTORS static inline uint clear_before(const struct plain_arguments *a, uint look, uint next, uint x, uint y,
                                              struct layered_row *row)
 {
@@ -233,8 +250,10 @@ WIDE_VECTORS static inline uint clear_before(const struct plain_arguments *a, ui
 
 /* --- Tests ------------------------------------------------------------------------------------------------------- */
 
-/* pixel_tests and pixel_mark for fragments of layer i, of one material. Their depths are known, and so are their
- * colours if the material tests alpha. */
+/*
+ * Test fragments of layer i, all of one material, and mark the pixels that they reach (pixel_tests, pixel_mark). Their
+ * depths must be known, and their colours if the material tests alpha.
+ */
 WIDE_VECTORS static inline void test_lanes(const struct plain_arguments *a, struct layered_row *row, uint i,
                                            __global const struct scene_material *m, uint lanes)
 {
@@ -267,7 +286,8 @@ WIDE_VECTORS static inline void test_lanes(const struct plain_arguments *a, stru
 
 /* --- Drawing ----------------------------------------------------------------------------------------------------- */
 
-/* Blend one channel of a part of the colours over the same part of the pixels. */
+/* Blend one channel of the fragments over the pixels, at one of the steps from GL's colours to the beauty. opaque: 1:
+ * replace the pixels' channel */
 WIDE_VECTORS static inline void draw_channel(__global const struct scene_material *m, int channel, packf source,
                                              packu s_alpha, packu d_alpha, int opaque, packi lanes, packf *to)
 {
@@ -276,7 +296,8 @@ WIDE_VECTORS static inline void draw_channel(__global const struct scene_materia
 		         lanes);
 }
 
-/* Test whether, in some lanes, a channel is the same in all parts of the pixels and of the fragments. */
+/* Test whether channel i has the same value at all steps from GL's colours to the beauty, in the pixels and in the
+ * fragments of all given lanes: blending it once is enough then. */
 WIDE_VECTORS static inline int is_same(const struct layer *layer, const struct pack_pixels *p, int i, int is_mirrored,
                                        packi lanes)
 {
@@ -291,7 +312,7 @@ WIDE_VECTORS static inline int is_same(const struct layer *layer, const struct p
 	return !any_pack((differ != 0) & lanes);
 }
 
-/* pixel_colors for fragments of one material. is_mirrored: as in struct layered_row */
+/* Write the colours of fragments of one material, as pixel_colors does. is_mirrored: as in struct layered_row */
 WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __global const struct scene_material *m,
                                            const struct layer *layer, int is_mirrored, packi lanes,
                                            struct pack_pixels *p)
@@ -327,7 +348,8 @@ WIDE_VECTORS static inline void draw_lanes(const struct plain_arguments *a, __gl
 	draw_channel(m, 3, c->gl.w, s_alpha, d_alpha, 0, lanes, &p->gl[3]);
 }
 
-/* pixel_replaces for all lanes. */
+/* Find the lanes where a fragment leaves nothing of the previous colours, as pixel_replaces does: blended over black,
+ * grey and white, it gives the same result. */
 WIDE_VECTORS static inline packi replaces(__global const struct scene_material *m, const struct plain_colors *c)
 {
 	const packu alpha = blend_round(c->gl.w);
@@ -342,6 +364,7 @@ WIDE_VECTORS static inline packi replaces(__global const struct scene_material *
 	return (m->color_mask & 7) == 7 ? same : (packi)(0);
 }
 
+/* Draw the fragments of a layer that passed the tests and are not covered. */
 static inline void draw_layer(const struct plain_arguments *a, const struct layer *layer, struct layered_row *row)
 {
 	uint material;

@@ -9,7 +9,7 @@
  */
 #include "kernels/frame/layered/layer.h"
 
-/* Kept from one fragment to the next. */
+/* Results that the next fragments of a block may reuse. */
 struct layered_kept {
 	struct pack_encoded encoded;
 	struct pack_kept pack;
@@ -19,7 +19,7 @@ struct layered_kept {
 
 /* --- Colours ----------------------------------------------------------------------------------------------------- */
 
-/* Surface data, apart from colours, of the fragments of layer i that kept->last has placed. */
+/* Write the albedo, normals and positions of the fragments of layer i that kept->last has placed. */
 static inline void put_layer_surface(const struct plain_arguments *a, struct layered_row *row, uint i, uint lanes,
                                      const struct pack_surface *s, const struct pack_kept *kept)
 {
@@ -32,7 +32,7 @@ static inline void put_layer_surface(const struct plain_arguments *a, struct lay
 		pack_put_surface(&a->tables, &kept->last, s, shows, &row->pixels);
 }
 
-/* Place fragments of one material, in kept->last. @return the lanes that are done */
+/* Locate fragments of one material in their triangles, for kept->last. @return the lanes that are done */
 static inline uint place_lanes(const struct plain_arguments *a, const struct shade_arguments *s, struct layer *layer,
                                uint lanes, struct pack_kept *kept)
 {
@@ -46,6 +46,7 @@ static inline uint place_lanes(const struct plain_arguments *a, const struct sha
 	return lanes;
 }
 
+/* Copy the colours of some lanes. */
 WIDE_VECTORS static inline void keep_colors(const struct plain_colors *from, packi lanes, struct plain_colors *to)
 {
 	for (int i = 0; i < 4; i++)
@@ -62,7 +63,7 @@ WIDE_VECTORS static inline void keep_colors(const struct plain_colors *from, pac
 /* Index in the list of a fragment that light leaves. */
 static inline uint place_in_list(const struct plain_arguments *a, const struct layer *layer, uint lane)
 {
-	return a->layers.list_first[layer->at.base / PACK_SIZE] + popcount(layer->leaves & ((1u << lane) - 1));
+	return a->layers.list_first[layer->at.base / PACK_SIZE] + popcount(layer->leaving & ((1u << lane) - 1));
 }
 
 /* Add a fragment that light leaves to the list. f, direct: as it was shaded. */
@@ -78,7 +79,7 @@ static inline void list_one(const struct plain_arguments *a, const struct layer 
 	to->flags = SHADED_THERE;
 }
 
-/* Take the light that its paths found. */
+/* Take the colours of a fragment that light leaves, with the light that its paths found. */
 static inline void take_one(const struct plain_arguments *a, struct layer *layer, uint lane)
 {
 	__global const struct shaded *from = &a->layers.list_shaded[place_in_list(a, layer, lane)];
@@ -89,7 +90,8 @@ static inline void take_one(const struct plain_arguments *a, struct layer *layer
 	}
 }
 
-/* Either of these, for fragments that kept->last has placed and that have their colours. */
+/* List the fragments that light leaves or, in step PLAIN_MIRROR, take their colours. p: kept->last, which has placed
+ * them. They are shaded */
 static inline void follow_lanes(const struct plain_arguments *a, const struct layered_row *row, struct layer *layer,
                                 uint lanes, const struct pack *p)
 {
@@ -99,7 +101,7 @@ static inline void follow_lanes(const struct plain_arguments *a, const struct la
 		pack_put(&layer->mirrored[c], CHANNEL(layer->colors.direct, c), pack_mask(lanes));
 		pack_put(&layer->beauty[c], CHANNEL(layer->colors.direct, c), pack_mask(lanes));
 	}
-	for (uint left = lanes & layer->leaves; left; left &= left - 1) {
+	for (uint left = lanes & layer->leaving; left; left &= left - 1) {
 		const uint lane = popcount((left & -left) - 1);
 		const struct vec4_16 *direct = &layer->colors.direct;
 		struct fragment f;
@@ -119,25 +121,25 @@ static inline void follow_lanes(const struct plain_arguments *a, const struct la
 	}
 }
 
-/* Find the fragments of a row that light leaves: those that are visible. @return 1 if there are any */
-static inline uint find_leaves(const struct plain_arguments *a, struct layered_row *row)
+/* Find the visible fragments of a row that light leaves. @return not 0 if there are any */
+static inline uint find_leaving(const struct plain_arguments *a, struct layered_row *row)
 {
 	uint all = 0;
 
 	for (uint i = 0; i < row->n && a->layers.mirrors; i++) {
 		struct layer *layer = &row->layers[i];
 
-		for (uint left = row->step == PLAIN_FIRST && layer->follows ? layer->drawn & ~layer->covered : 0; left;
+		for (uint left = row->step == PLAIN_FIRST && layer->may_leave ? layer->drawn & ~layer->covered : 0; left;
 		     left &= left - 1) {
 			__global const struct scene_material *m = stage_material(
 				&a->tables, layer->at.list.instance[popcount((left & -left) - 1)]);
 
 			if (m->surface.reflect > 0.0f || m->surface.transmit > 0.0f)
-				layer->leaves |= left & -left;
+				layer->leaving |= left & -left;
 		}
 		if (row->step == PLAIN_FIRST)
-			a->layers.leaving[layer->at.base / PACK_SIZE] = layer->leaves;
-		all |= layer->leaves;
+			a->layers.leaving[layer->at.base / PACK_SIZE] = layer->leaving;
+		all |= layer->leaving;
 	}
 	return all;
 }
@@ -145,14 +147,15 @@ static inline uint find_leaves(const struct plain_arguments *a, struct layered_r
 /* --- Fragments --------------------------------------------------------------------------------------------------- */
 
 /*
- * Colours of fragments of one material in layer i. tests: 1: they have not been tested yet. @return the lanes that are
- * done
+ * Shade fragments of one material in layer i; send their rays to lights.
+ * @param tests  1: they have not been tested yet
+ * @return the lanes that are done
  */
 static inline uint shade_layer_lanes(const struct plain_arguments *a, const struct shade_arguments *s,
                                      struct layered_row *row, uint i, uint lanes, int tests, struct pack_kept *kept)
 {
 	struct layer *layer = &row->layers[i];
-	const int sends = layer->asks && row->step == PLAIN_FIRST;
+	const int sends = layer->sends_rays && row->step == PLAIN_FIRST;
 	struct plain_colors colors;
 	struct pack_surface surface;
 	packu lights;
@@ -183,7 +186,7 @@ static inline uint shade_layer_lanes(const struct plain_arguments *a, const stru
 	return lanes;
 }
 
-/* Complete processing of a fragment that packs cannot handle. */
+/* Shade and test a fragment that packs cannot handle. */
 static inline void shade_layer_alone(const struct plain_arguments *a, const struct shade_arguments *s,
                                      struct layered_row *row, uint i, uint lane, struct layered_kept *kept)
 {
@@ -197,9 +200,9 @@ static inline void shade_layer_alone(const struct plain_arguments *a, const stru
 		a->fragments[item] = a->sparse[layer->from + lane * layer->slots];
 		a->pixels[item] = layer->at.list.pixel[lane];
 	}
-	if (row->step == PLAIN_FIRST || layer->asks)
+	if (row->step == PLAIN_FIRST || layer->sends_rays)
 		shade_item(s, item, 0, &kept->one);
-	for (uint slot = 0; slot < a->n_slots && layer->asks && row->step == PLAIN_FIRST; slot++)
+	for (uint slot = 0; slot < a->n_slots && layer->sends_rays && row->step == PLAIN_FIRST; slot++)
 		shadow_ray_item(&r, slot * a->n + item, 0, &kept->ray);
 	if (!(shaded->flags & SHADED_THERE) || shaded->flags & SHADED_STENCIL)
 		return;
@@ -213,9 +216,9 @@ static inline void shade_layer_alone(const struct plain_arguments *a, const stru
 	LANE(layer->depth, float, lane) = shaded->depth;
 	layer->shaded |= 1u << lane;
 	f = a->fragments[item];
-	if (layer->leaves >> lane & 1 && row->step == PLAIN_SHADOW)
+	if (layer->leaving >> lane & 1 && row->step == PLAIN_SHADOW)
 		list_one(a, layer, lane, f, v3_load(shaded->direct));
-	if (layer->leaves >> lane & 1 && row->step == PLAIN_MIRROR)
+	if (layer->leaving >> lane & 1 && row->step == PLAIN_MIRROR)
 		take_one(a, layer, lane);
 	test_lanes(a, row, i, stage_material(&a->tables, f.instance), 1u << lane);
 	if (LANE(row->surface, uint, lane) != i)
@@ -296,7 +299,7 @@ static inline uint lanes_there(uint x, uint width)
 	return width - x < PLAIN_WIDTH ? (1u << (width - x)) - 1 : 0xffffu;
 }
 
-/* Draw numbers of the visible surfaces. */
+/* Write the draw numbers of the fragments drawn last. */
 static inline void put_draws(const struct plain_arguments *a, struct layered_row *row)
 {
 	const packi drawn = row->last != SCENE_NONE;
@@ -329,7 +332,7 @@ static inline void draw_row(const struct plain_arguments *a, const struct shade_
 		covered = shade_layer(a, s, row, i, covered, kept);
 		spared |= row->layers[i].drawn & ~row->layers[i].shaded;
 	}
-	if (find_leaves(a, row) && row->step != PLAIN_MIRROR)
+	if (find_leaving(a, row) && row->step != PLAIN_MIRROR)
 		return;
 	for (uint i = 0; i < row->n && !row->at_once; i++)
 		draw_layer(a, &row->layers[i], row);
@@ -345,7 +348,7 @@ static inline void draw_row(const struct plain_arguments *a, const struct shade_
 	a->layers.unknown[y * plain_columns(a->width) + x / PLAIN_WIDTH] = row->unknown & lanes_there(x, a->width);
 }
 
-/* s: with visibility once lights have been queried */
+/* Process a block in one of the three steps. s: with visibility once lights have been queried */
 static inline void do_layered_block(const struct plain_arguments *a, const struct shade_arguments *s, uint step,
                                     uint item)
 {
