@@ -17,13 +17,15 @@
 #include "ci/server.h"
 #include "ci/steps.h"
 
-enum { BISECT_SKIPS = 125 };
+enum { BISECT_SKIPS = 125 }; /* exit code that makes 'git bisect run' skip a commit */
 
+/* Values of an option that may be repeated. */
 struct texts {
 	char **at; /* owned; the texts are borrowed */
 	size_t n, room;
 };
 
+/* The command line. */
 struct asked {
 	const char *file, *kept, *baseline;
 	struct ci_program program; /* from the command line; its name may select a program of the file */
@@ -152,7 +154,8 @@ static void add_summary(const struct ci_run *run, const struct ci_program *progr
 		server_add_summary(path);
 }
 
-/* Programs share one display in turn, so parallel jobs need a lock. */
+/* Run programs, and print a line for each if there are several. They share one display in turn, so parallel jobs need a
+ * lock. @return the exit code */
 static int run_programs(struct ci_run *run, const struct ci_program *const *programs, size_t n, size_t n_jobs)
 {
 	int *codes = calloc(n, sizeof(*codes)), code = 0, err;
@@ -175,6 +178,7 @@ static int run_programs(struct ci_run *run, const struct ci_program *const *prog
 	return err ? -err : code;
 }
 
+/* Run programs of the file. @return the exit code */
 static int run_file(const struct asked *asked, struct ci_run *run)
 {
 	struct ci_plan *plan;
@@ -196,6 +200,7 @@ static int run_file(const struct asked *asked, struct ci_run *run)
 	return err ? -err : code;
 }
 
+/* Run the program of the command line or, without one, those of the file. @return the exit code */
 static int run_all(struct asked *asked, const struct options_line *line)
 {
 	struct ci_program *p = &asked->program;

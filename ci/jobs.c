@@ -14,8 +14,8 @@
 
 struct job {
 	const char *name;
-	FILE *said; /* output of all its processes */
-	pid_t pid;  /* 0: not started, or done */
+	FILE *output; /* from all its processes */
+	pid_t pid;    /* 0: not started, or done */
 };
 
 size_t jobs_default(void)
@@ -25,11 +25,12 @@ size_t jobs_default(void)
 	return n > 1 ? (size_t)n : 1;
 }
 
+/* Start a program in a process of its own. @return 0 or ERR_SYSTEM (reported) */
 static int start(const struct ci_run *run, const struct ci_program *program, struct job *job)
 {
 	job->name = program->name;
-	job->said = tmpfile();
-	if (!job->said)
+	job->output = tmpfile();
+	if (!job->output)
 		return err_report(ERR_SYSTEM, program->name, "no temporary file for its output: %s", strerror(errno));
 	fflush(stdout);
 	job->pid = fork();
@@ -37,7 +38,7 @@ static int start(const struct ci_run *run, const struct ci_program *program, str
 		return err_report(ERR_SYSTEM, program->name, "cannot start a process: %s", strerror(errno));
 	if (job->pid == 0) {
 		prctl(PR_SET_PDEATHSIG, SIGTERM);
-		if (dup2(fileno(job->said), STDOUT_FILENO) < 0 || dup2(fileno(job->said), STDERR_FILENO) < 0)
+		if (dup2(fileno(job->output), STDOUT_FILENO) < 0 || dup2(fileno(job->output), STDERR_FILENO) < 0)
 			_exit(-ERR_SYSTEM);
 		const int code = ci_run_program(run, program);
 
@@ -65,17 +66,18 @@ static size_t wait_for_any(struct job *jobs, size_t n, int *codes)
 	return n;
 }
 
+/* Print a job's output. */
 static void print(struct job *job)
 {
 	char text[4096];
 	size_t n;
 
-	rewind(job->said);
-	while ((n = fread(text, 1, sizeof(text), job->said)) > 0)
+	rewind(job->output);
+	while ((n = fread(text, 1, sizeof(text), job->output)) > 0)
 		fwrite(text, 1, n, stdout);
 	fflush(stdout);
-	fclose(job->said);
-	job->said = NULL;
+	fclose(job->output);
+	job->output = NULL;
 }
 
 static int run_several(const struct ci_run *run, const struct ci_program *const *programs, struct job *jobs, size_t n,
@@ -110,8 +112,8 @@ int jobs_run(const struct ci_run *run, const struct ci_program *const *programs,
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	err = run_several(run, programs, jobs, n, n_jobs, codes);
 	for (size_t i = 0; i < n; i++)
-		if (jobs[i].said)
-			fclose(jobs[i].said);
+		if (jobs[i].output)
+			fclose(jobs[i].output);
 	free(jobs);
 	return err;
 }

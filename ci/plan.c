@@ -35,6 +35,7 @@ static const cyaml_schema_value_t plan_schema = {
 	CYAML_VALUE_MAPPING(CYAML_FLAG_POINTER, struct ci_plan, plan_fields)
 };
 
+/* 1 if a text can be a program's name. */
 static int is_name(const char *name)
 {
 	static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._+-";

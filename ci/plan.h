@@ -26,16 +26,16 @@
 
 #include <stdint.h>
 
-enum { CI_FRAMES = 10, CI_MOST_FRAMES = 1000000 };
+enum { CI_FRAMES = 10, CI_MOST_FRAMES = 1000000 }; /* frames to record: the default, the maximum */
 
 struct ci_program {
-	char *name;
+	char *name;         /* NULL before ci_program_check: not given */
 	char **command;     /* the program and its arguments */
 	char **environment; /* NAME=VALUE */
-	char **press;       /* KEY@FRAME */
-	char **data;
+	char **press;       /* KEY@FRAME or KEY@FIRST-LAST */
+	char **data;        /* files and folders that it reads (watched.h) */
 	char *config;       /* NULL: none */
-	uint32_t frames;    /* 0 in a file: the default */
+	uint32_t frames;    /* 0 before ci_program_check: not given */
 	uint32_t n_command, n_environment, n_press, n_data;
 };
 
@@ -46,16 +46,19 @@ struct ci_plan {
 };
 
 /**
- * Read a file, and fill in defaults.
+ * Read a file of programs, and check each with ci_program_check. Two programs of one name are an error.
  * @param out  free with ci_plan_free
  * @return 0, ERR_INPUT (reported, with the line) or ERR_SYSTEM (reported)
  */
 int ci_plan_read(const char *path, struct ci_plan **out);
+
+/** Free a plan, and set it to NULL. */
 void ci_plan_free(struct ci_plan **plan);
 
 /**
- * Check a program, and name it after its command if it has no name. The name becomes a folder and part of a glob.
+ * Fill in the default name, that of the command, and the default number of frames. Check both, and the environment. The
+ * name becomes a folder and part of a glob, so it has only letters, digits and . _ + -
  * @param where  the file, for messages; NULL: the command line
- * @return 0; ERR_USAGE, or ERR_INPUT for a file (reported)
+ * @return 0; ERR_INPUT, or ERR_USAGE for the command line (reported); ERR_SYSTEM (reported)
  */
 int ci_program_check(struct ci_program *program, const char *where);

@@ -20,6 +20,7 @@
 #include "base/table.h"
 #include "base/version.h"
 
+/* Interpreters of interpreters to follow; nested folders; bytes to search for a script's or program's interpreter */
 enum { MOST_FOLLOWED = 4, MOST_FOLDERS = 40, HEAD_BYTES = 4096 };
 
 struct collector {
@@ -51,8 +52,8 @@ static int is_folder(const char *path)
 	return stat(path, &info) == 0 && S_ISDIR(info.st_mode);
 }
 
-/* 1 if this file was added before, under any name. Adds it. */
-static int is_added(struct collector *c, const char *path, int *err)
+/* Note that a file is added. @return 1 if it was before, under any name */
+static int note_added(struct collector *c, const char *path, int *err)
 {
 	uint64_t key[2] = { 0, 0 };
 	struct stat info;
@@ -67,13 +68,14 @@ static int is_added(struct collector *c, const char *path, int *err)
 	return was;
 }
 
+/* Add a file with the hash of its content, unless it was added before. */
 static int add_file(struct collector *c, const char *path)
 {
 	uint64_t hash[2];
 	char kind[64];
 	int err = 0;
 
-	if (is_added(c, path, &err) || err)
+	if (note_added(c, path, &err) || err)
 		return err;
 	err = hash_whole(path, hash);
 	if (err)
@@ -179,6 +181,7 @@ static int add_runnable(struct collector *c, const char *path, int depth)
 
 /* --- Data ------------------------------------------------------------------------------------------------------- */
 
+/* Add a file, or all files below a folder. depth: of the folder, 0 for what --data names */
 static int add_data(struct collector *c, const char *path, int depth)
 {
 	struct dirent **names;
@@ -277,7 +280,7 @@ static int has_line(const char *text, const char *line, size_t n)
 	return strncmp(text, line, n) == 0 && text[n] == '\n';
 }
 
-/* Count the lines of one text that another lacks, and describe the first in `why`. */
+/* Count the lines of a text that another text lacks, and describe the first in `why`. */
 static size_t compare(const char *text, const char *other, const char *verb, char *why, size_t size)
 {
 	size_t n_different = 0;

@@ -16,7 +16,7 @@ struct watched {
 	char *text;       /* one line for each input: "file HASH PATH", ...; owned */
 	size_t n_files;
 	char *not_watched; /* folders among the arguments, separated by commas; owned; NULL: none */
-	int is_unknown;   /* 1: the loader did not list the libraries, so nothing proves them unchanged */
+	int is_unknown;   /* 1: the loader did not list a program's libraries, so nothing proves them unchanged */
 };
 
 /**
