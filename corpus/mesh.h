@@ -1,6 +1,6 @@
 /*
- * Triangle meshes for the corpus programs: read from an OBJ file, or a generated knot. Indexed, with one smooth normal
- * per vertex, scaled to fit the cube from -1 to 1.
+ * Triangle meshes for the corpus programs: read from an OBJ file, or a generated knot. Meshes are indexed, have one
+ * smooth normal per vertex, and are centred and scaled to fit the cube from -1 to 1.
  */
 #pragma once
 
@@ -11,15 +11,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* All zero: empty. The arrays are never freed: programs show their mesh until they exit. */
 struct mesh {
-	float (*positions)[3], (*normals)[3];
-	unsigned (*triangles)[3];
+	float (*positions)[3], (*normals)[3]; /* [n_vertices] */
+	unsigned (*triangles)[3];             /* [n_triangles]: vertex numbers from 0 */
 	size_t n_vertices, n_triangles;
 };
 
+/** Make room for element number `count` of an array that mesh_grow grew from NULL. Exits if memory runs out. */
 static void *mesh_grow(void *array, size_t count, size_t element_bytes)
 {
-	/* Capacity is a power of two. */
+	/* Room is a power of two, so the array is full only when `count` is 0 or a power of two. */
 	if (count & (count - 1))
 		return array;
 	array = realloc(array, (count ? 2 * count : 1) * element_bytes);
@@ -48,7 +50,12 @@ static void mesh_add_triangle(struct mesh *m, unsigned a, unsigned b, unsigned c
 	m->n_triangles++;
 }
 
-/** A face line of an OBJ file ("f 1/1/1 2//2 -1"): its polygon as a fan. Only positions are used. */
+/**
+ * Add a face of an OBJ file ("1/1/1 2//2 -1") as a fan of triangles. Only positions are used; negative ones count from
+ * the last vertex so far.
+ * @param text  the line after "f"; modified
+ * @return 0; -1: a vertex does not exist, or there are fewer than three
+ */
 static int mesh_read_face(struct mesh *m, char *text)
 {
 	unsigned fan[3];
@@ -72,6 +79,7 @@ static int mesh_read_face(struct mesh *m, char *text)
 	return n < 3 ? -1 : 0;
 }
 
+/** Read positions and faces of an OBJ file; ignores other lines. @return 0; -1: unreadable, wrong or without faces */
 static int mesh_read_obj(struct mesh *m, const char *path)
 {
 	FILE *file = fopen(path, "r");
@@ -91,7 +99,7 @@ static int mesh_read_obj(struct mesh *m, const char *path)
 	return bad || m->n_triangles == 0 ? -1 : 0;
 }
 
-/** Point of a (2,3) torus knot at angle t. */
+/** The point of a (2,3) torus knot at t, 0 to 2 pi. */
 static void mesh_knot_center(float t, float out[3])
 {
 	float r = 2 + cosf(3 * t);
@@ -110,7 +118,10 @@ static void mesh_make_knot(struct mesh *m, unsigned along, unsigned around)
 		float t = turn * (float)i / (float)along;
 		float c[3], ahead[3], u[3], v[3], w[3], length;
 
-		/* u along the tube, v and w across it */
+		/*
+		 * A frame of the tube: u along it, w and v across it. Two adjacent points, as vectors from the origin, give
+		 * both: their difference is u; their sum, not parallel to u, gives w = u x sum; then v = w x u.
+		 */
 		mesh_knot_center(t, c);
 		mesh_knot_center(t + step, ahead);
 		for (int k = 0; k < 3; k++) {
@@ -162,7 +173,10 @@ static void mesh_fit(struct mesh *m)
 			m->positions[i][k] = (2 * m->positions[i][k] - low[k] - high[k]) / size;
 }
 
-/** One normal per vertex: the mean of its triangles' normals, weighted by area. */
+/**
+ * Add one normal per vertex: the mean of its triangles' normals, weighted by area. It faces the side where corners run
+ * counterclockwise. Exits if memory runs out.
+ */
 static void mesh_add_normals(struct mesh *m)
 {
 	m->normals = (float(*)[3])calloc(m->n_vertices, sizeof(*m->normals));
@@ -199,7 +213,7 @@ static inline struct mesh mesh_load(const char *path, unsigned along, unsigned a
 	struct mesh m = { 0 };
 
 	if (path && mesh_read_obj(&m, path) != 0) {
-		fprintf(stderr, "%s: no OBJ file of triangles or polygons\n", path);
+		fprintf(stderr, "%s: cannot be read as an OBJ file of triangles or polygons\n", path);
 		exit(1);
 	}
 	if (!path)
@@ -209,7 +223,7 @@ static inline struct mesh mesh_load(const char *path, unsigned along, unsigned a
 	return m;
 }
 
-/** A display list that draws the mesh by glVertex calls. */
+/** Compile a display list that draws the mesh by glVertex calls. */
 static inline GLuint mesh_compile(const struct mesh *m)
 {
 	const GLuint list = glGenLists(1);
