@@ -34,8 +34,10 @@ int index_load(struct index *index);
  */
 int index_place(const struct index *index, int cached, char out[PATH_MAX]);
 
+/** Free an index, and set it to NULL. */
 void index_close(struct index **index);
 
+/* Figures of an index, for reports. */
 struct index_facts {
 	const char *path;       /* path of the index; NULL: not saved */
 	uint64_t frames, calls; /* complete frames; calls executed */
@@ -55,18 +57,18 @@ struct index_lack {
 };
 
 /**
- * Commands that the trace's frames lack, in order of first use. Found without building scenes, so that whatever only
+ * List the commands that replays do not execute, in order of first use. No scene is built to find them, so what only
  * drawing reveals is not included.
  */
 size_t index_lacks(const struct index *index, const struct index_lack **out);
 
-/** The number of the call that ends a frame, and that call's position in the unpacked trace in bytes. */
+/** Find the call that ends a frame: its number, and its position in the unpacked trace in bytes. */
 void index_frame(const struct index *index, uint64_t frame, uint64_t *call, uint64_t *offset);
 
 /** When a frame ended (struct scene); 0: the recording does not say. */
 uint64_t index_frame_time(const struct index *index, uint64_t frame);
 
-/** The last frame up to `frame` that has a checkpoint; 0 if none has: the trace's beginning. */
+/** The last frame up to `frame` that has a checkpoint. If none has, 0: replay from the start of the trace. */
 uint64_t index_checkpoint(const struct index *index, uint64_t frame);
 
 /**

@@ -1,3 +1,4 @@
+/* Checks an index: reaches each checkpoint by replaying, from the one before it, and by restoring. */
 #include "replay/index/index_check.h"
 
 #include <stdlib.h>
@@ -6,7 +7,7 @@
 #include "replay/index/index_file.h"
 #include "replay/play/player.h"
 
-/* Compare the state of a replay with the one that a checkpoint saved. */
+/* Compare a player's state with the one that a checkpoint saved. way: how it got there, for the report */
 static int compare_state(struct index *index, const struct index_checkpoint *c, struct player *p, const char *way)
 {
 	struct bytes state = { .n = 0 };
@@ -30,6 +31,7 @@ static int compare_state(struct index *index, const struct index_checkpoint *c, 
 	return rc;
 }
 
+/* Play up to a frame. @return 0, ERR_INPUT or ERR_SYSTEM (reported) */
 static int run_to(struct player *p, uint64_t frame)
 {
 	struct scene *none;

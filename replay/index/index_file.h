@@ -21,17 +21,19 @@ struct index_header {
 	uint64_t trace_bytes, trace_mtime_ns;
 	char trace_hash[32]; /* hex digits, without a terminator */
 	uint64_t whole_hash[2];
-	uint64_t toc_offset, toc_packed, toc_bytes, toc_hash[2];
+	uint64_t toc_offset, toc_packed, toc_bytes, toc_hash[2]; /* table of contents: position, packed and unpacked size,
+	                                                            XXH3-128 of the packed bytes */
 };
 
 struct index_blob {
-	uint64_t name[2], offset, packed;
+	uint64_t name[2]; /* XXH3-128 of the content */
+	uint64_t offset, packed; /* position in the file; packed size, bytes */
 };
 
 struct index_checkpoint {
 	uint64_t frame;
 	struct trace_place place;
-	uint64_t name[2], bytes; /* the snapshot's */
+	uint64_t name[2], bytes; /* name of the snapshot's blob; its unpacked size */
 };
 
 struct index_frame {
@@ -76,7 +78,7 @@ int index_out_of_memory(const struct index *index);
 /** The file can no longer be written (reported): the index continues in memory, without checkpoints. */
 void index_lose_file(struct index *index);
 
-/** Convert frames to differences (sign -1), small numbers that pack well, and back (1). */
+/** Replace numbers of frames by their differences, which pack well (sign -1), or restore them (sign 1). */
 void index_undelta(struct index_frame *frames, size_t n, int sign);
 
 /**

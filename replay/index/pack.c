@@ -1,3 +1,4 @@
+/* Packs and unpacks blobs with Snappy. */
 #include "replay/index/pack.h"
 
 #include <snappy-c.h>
@@ -13,7 +14,7 @@ size_t pack_room(size_t n)
 	return snappy_max_compressed_length(n);
 }
 
-/* Does a piece from the middle shrink by at least a quarter? */
+/* 1 if data is small, or if a piece from its middle shrinks by at least a quarter. */
 static int is_worth_packing(const char *data, size_t n)
 {
 	char packed[SAMPLE_BYTES + SAMPLE_BYTES / 6 + 32]; /* snappy_max_compressed_length */

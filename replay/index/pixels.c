@@ -16,8 +16,8 @@
 #include "base/part.h"
 #include "replay/index/index_file.h"
 
-#define NAMES "*-*-*.index"               /* as path_of makes them */
-/* Size limits of one checkpoint, of those of a trace, and of all in the folder. */
+#define NAMES "*-*-*.index" /* matches the names that path_of makes */
+/* Size limits, bytes: of one checkpoint, of all of a trace, and of all in the folder. */
 #define MOST_BYTES ((uint64_t)256 << 20)
 #define MOST_TRACE ((uint64_t)512 << 20)
 #define MOST_ALL ((uint64_t)1 << 30)
@@ -36,7 +36,7 @@ uint64_t pixels_maker(const char *device)
 	return maker[0];
 }
 
-/* @return 0: the path is too long */
+/* Path of a frame's checkpoint. @return 1; 0: it is too long */
 static int path_of(const struct pixels *p, uint64_t frame, char out[PATH_MAX])
 {
 	const int n = snprintf(out, PATH_MAX, "%s/%.32s-%016" PRIx64 "-%" PRIu64 ".index", p->folder, p->trace,
@@ -147,7 +147,8 @@ static void thin_out(const struct pixels *p)
 	free(list);
 }
 
-/* index: with its file, which is begun. @return 0; 1: not worth its size, or the file is lost; ERR_SYSTEM (reported) */
+/* Write an index of one checkpoint; its file is begun. @return 0; 1: not worth its size, or the file is lost;
+ * ERR_SYSTEM (reported) */
 static int write_index(struct index *index, struct trace_reader *reader, struct gls_exec *x)
 {
 	int rc = index_add_checkpoint(index, reader, x, MOST_BYTES, snapshot_save_pixels);

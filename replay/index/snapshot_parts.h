@@ -24,15 +24,16 @@ struct saver {
 	uint64_t held; /* total size of blobs so far */
 	int has_pixels; /* snapshot_save_pixels */
 	int err;
-	size_t wanted; /* snapshot_place: the byte asked for, otherwise SIZE_MAX */
+	size_t wanted; /* for snapshot_place: position of the byte that it describes; SIZE_MAX: none */
 	char place[96];
 };
 
 /** Name the section that follows, so that snapshot_place can describe a byte. */
 void saver_section(struct saver *s, const char *what, uint64_t number);
 
+/** Save data as a blob. */
 void saver_blob(struct saver *s, const void *data, size_t n);
-/** @param name  hash_bytes */
+/** Save a blob whose name (hash_bytes) is known. */
 void saver_named_blob(struct saver *s, const uint64_t name[2], const void *data, size_t n);
 
 /* ---- loading: all data is validated ---- */
@@ -45,6 +46,7 @@ struct loader {
 	int err; /* ERR_SYSTEM: no memory (reported) */
 };
 
+/** 1 if loading has failed. */
 int loader_is_bad(const struct loader *l);
 
 /** n zeroed bytes, to be freed with free(); NULL: the loader is bad, or becomes so. */

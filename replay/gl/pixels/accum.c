@@ -20,7 +20,7 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-#define ONE 32767.0f
+#define ONE 32767.0f /* the stored value of 1 */
 #define PIXELS_A_REPEAT 256 /* this many count as one operation of a list (gls_is_beyond_measure) */
 
 struct area {

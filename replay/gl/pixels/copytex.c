@@ -57,7 +57,7 @@ static void copy_pixels(const struct gls_state *st, const struct scene_picture *
 		               l->texels + l->texel_bytes * (size_t)((c->to[2] * l->height + c->to[1]) * l->width + c->to[0]));
 }
 
-/* Extend a part to include the destination of a copy. */
+/* Extend a part (x, y, width, height) to include the destination of a copy. */
 static void unite(uint32_t part[4], const struct copy *c, int is_first)
 {
 	for (int k = 0; k < 2; k++) {

@@ -60,7 +60,7 @@ static void set_coordinates(struct gls_exec *x, struct gls_state *st, struct gls
 	}
 }
 
-/* Bit set of the texture coordinates that a rectangle has. */
+/* Bits 1 << attribute of the texture coordinates that a rectangle has. */
 static uint32_t textured_units(struct gls_exec *x, struct gls_state *st)
 {
 	uint32_t bits = 0;
@@ -74,7 +74,8 @@ static uint32_t textured_units(struct gls_exec *x, struct gls_state *st)
 	return bits;
 }
 
-/* rect: x, y, depth of the window, width, height.  @return a reference; NULL: out of memory (reported) */
+/* Make the mesh of a rectangle. rect: window x, y and depth, width, height. @return a reference; NULL: out of memory
+ * (reported) */
 static struct gls_mesh *make_rectangle(struct gls_exec *x, struct gls_state *st, const float rect[5])
 {
 	struct gls_geometry *g = &x->scratch.geometry;

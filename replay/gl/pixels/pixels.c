@@ -1,4 +1,4 @@
-/* Pixel drawing (GL 2.1 sec. 3.6, 3.7, 4.3.3): Bitmap, DrawPixels, CopyPixels. */
+/* Drawing of pixels (GL 2.1 sec. 3.6, 3.7, 4.3.3): Bitmap, DrawPixels, CopyPixels. */
 #include <math.h>
 #include <string.h>
 
@@ -50,8 +50,8 @@ GLS_HANDLER(glBitmap, STATE)
 }
 
 /*
- * A rectangle at the raster position, with PixelZoom. copied: source pixels come from the read buffer; Mesa (22.3.6)
- * keeps a window's rows from the top
+ * A rectangle at the raster position, with PixelZoom.
+ * @param copied  1: the pixels come from the read buffer; Mesa (22.3.6) keeps a window's rows from the top
  */
 static struct gls_rectangle at_raster_position(const struct gls_state *st, uint32_t kind, uint32_t width,
                                                uint32_t height, const uint8_t *texels, int copied)
@@ -143,7 +143,7 @@ GLS_HANDLER(glDrawPixels, STATE)
 	gls_draw_rectangle(x, st, &r);
 }
 
-/* A pixel of the screen as a texel; 0 off the screen, where the value is undefined. */
+/* Convert a pixel of the read buffer to a texel; 0 outside of the buffer, where GL leaves the value undefined. */
 static void copy_texel(const struct gls_state *st, const struct scene_picture *p, uint32_t kind, int64_t x, int64_t y,
                        uint8_t *texel)
 {

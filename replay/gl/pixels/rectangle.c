@@ -1,4 +1,4 @@
-/* Pixel rectangles as events: a point, with a picture. */
+/* Draws rectangles of pixels: makes an event of one point, with the pixels as a picture. */
 #include "replay/gl/pixels/rectangle.h"
 
 #include <string.h>
@@ -33,7 +33,7 @@ static struct gls_mesh *point_at(struct gls_exec *x, float left, float low, floa
 	return mesh;
 }
 
-/* a: attributes to draw with; may be modified */
+/* Draw a rectangle. a: attributes to draw with; modified */
 static void draw(struct gls_exec *x, struct gls_state *st, const struct gls_rectangle *r, struct gls_attribs *a)
 {
 	const struct scene_rectangle rectangle = { .kind = r->kind, .width = r->width, .height = r->height,

@@ -1,4 +1,4 @@
-/* Pixel rectangles as fragments (GL 2.1 sec. 3.6.4, 3.7). */
+/* Draws rectangles of pixels (GL 2.1 sec. 3.6.4, 3.7): each is an event of one point, with the pixels as a picture. */
 #pragma once
 
 #include <stdint.h>
@@ -13,17 +13,18 @@ struct gls_rectangle {
 	uint32_t width, height;
 	float left, low;        /* window coordinates of the first pixel's outer corner */
 	float zoom[2];          /* window pixels per pixel of the rectangle */
-	const uint8_t *texels;  /* [height][width], 4 bytes each, or 4 floats for SCENE_FLOAT_PIXELS; borrowed */
+	const uint8_t *texels;  /* [height][width], 4 bytes each, or 4 floats for SCENE_FLOAT_PIXELS; borrowed for the
+	                           call */
 	uint32_t from_top;      /* as in struct scene_rectangle */
 };
 
 /**
- * Draw with the raster position's colours, texture coordinates and distance; the other fragment operations use the
- * state.
+ * Draw a rectangle with the colours, texture coordinates and depth of the raster position; fragment operations as the
+ * state says. Does nothing unless draws reach a surface (gls_is_drawn).
  */
 void gls_draw_rectangle(struct gls_exec *x, struct gls_state *st, const struct gls_rectangle *r);
 
-/** Draw depths regardless of tests and colour mask: only the depth mask applies. */
+/** Draw depths. They pass all tests and write no colours; only the depth mask applies. */
 void gls_draw_depths(struct gls_exec *x, struct gls_state *st, const struct gls_rectangle *r);
 
 /**

@@ -1,10 +1,10 @@
-/* Texture images, as the commands of GL 2.1 sec. 3.8.1 - 3.8.3 address them. */
+/* Finds the texture image that a command of GL 2.1 sec. 3.8.1 - 3.8.3 names. */
 #pragma once
 
 #include "replay/gl/texture/texture.h"
 
 /**
- * The texture whose level a command refers to, updated with everything drawn to it.
+ * Find the texture whose level a command names, and bring it up to date with what was drawn to it.
  * @param token  target argument: a texture or the face of a cube
  * @return NULL: a proxy, or not a valid target or level (GL error)
  */
