@@ -17,6 +17,7 @@ static void write_hash(const char *key, const uint64_t hash[2], char *out, size_
 	snprintf(out, size, "%s: \"%s\", ", key, text);
 }
 
+/* Write the keys in `which` for an instance, as YAML. */
 static void write_keys(const struct scene *scene, const struct scene_instance *in, int which, char keys[ALONE_BYTES])
 {
 	const struct scene_material *m = &scene->materials[in->material];
@@ -37,7 +38,7 @@ static void write_keys(const struct scene *scene, const struct scene_instance *i
 	snprintf(keys + n - 2, ALONE_BYTES - (size_t)n + 2, " }"); /* replaces the last comma */
 }
 
-/* The number of instances that a rule with these keys matches, according to the rules' own reader. @return ERR_SYSTEM
+/* Count the instances that a rule with these keys matches, read as rules are. @return their number, or ERR_SYSTEM
  * (reported) */
 static int count_matches(const struct scene *scene, const char *keys)
 {

@@ -12,7 +12,7 @@ enum { ALONE_BYTES = 256 };
  * together, its display list. If other instances share all of these, the draw number is used, which applies to this
  * frame alone.
  * @param keys  receives them as YAML: { mesh: "90c2..." }
- * @return the number of other instances that the keys match apart from `draws`; 0 if that key is absent; ERR_SYSTEM
- * (reported)
+ * @return 0: the keys match no other instance; above 0: the draw number was needed, and this many other instances share
+ * the remaining keys; ERR_SYSTEM (reported)
  */
 int alone_find(const struct scene *scene, uint32_t instance, char keys[ALONE_BYTES]);

@@ -14,6 +14,7 @@
 #include "look/rules/matched.h"
 #include "look/spare/sides.h"
 
+/* Append parameters of a rule to the scene's, which have room for them. */
 static void add_parameters(struct scene *out, const struct parameter_rule *list, uint32_t n)
 {
 	struct scene_parameter *to = (struct scene_parameter *)out->parameters + out->n_parameters;
@@ -69,9 +70,9 @@ static void decide_lighting(const struct applying *a, const struct scene_instanc
 	const struct scene_mesh *mesh = a->scene->meshes[in->mesh];
 
 	if (m->lighting)
-		s->relit = a->lights_change & 2 || s->light_unit || s->hidden & SCENE_CREASED;
+		s->relit = a->lights_change & LIGHTS_ON_LIT || s->light_unit || s->hidden & SCENE_CREASED;
 	else
-		s->relit = s->relit && a->lights_change & 1;
+		s->relit = s->relit && a->lights_change & LIGHTS_ON_UNLIT;
 	if (s->hidden & SCENE_UNSHADED) {
 		s->hidden &= ~SCENE_DOME_LIT;
 		s->relit = 0;
@@ -116,6 +117,10 @@ int look_spares(const struct look *look)
 	return !look || !look->rules->spare || *look->rules->spare;
 }
 
+/*
+ * Copy the arrays that rules change, with room for all additions. The second half of the views covers no pixel; it is
+ * for repaired meshes.
+ */
 static int copy_scene(struct applying *a)
 {
 	const struct scene *scene = a->scene;
@@ -130,7 +135,7 @@ static int copy_scene(struct applying *a)
 	out->instances = malloc((copies * n + 1) * sizeof(*out->instances));
 	out->materials = malloc((scene->n_materials + copies * n + 2) * sizeof(*out->materials));
 	out->views = malloc((2 * scene->n_views + (size_t)1) * sizeof(*out->views));
-	/* pages that stay untouched take no memory */
+	/* room for the most lights: pages that stay untouched take no memory */
 	out->lights = malloc((scene->n_lights + SCENE_MAX_LIGHTS * (n + 1)) * sizeof(*out->lights));
 	out->meshes = malloc((scene->n_meshes + copies * n + 1) * sizeof(*out->meshes));
 	if (!out->instances || !out->materials || !out->views || !out->lights || !out->meshes || !out->parameters) {
@@ -173,17 +178,18 @@ static int decides_sparing(const struct rules *rules)
 	return decided == 3 || (rules->spare && !*rules->spare);
 }
 
-static unsigned said_of_sparing(const struct applying *a)
+/* The flags for spare_find: what the rules decide about sparing, tricks and lights. */
+static unsigned sparing_flags(const struct applying *a)
 {
 	const struct rules *rules = a->rules;
-	unsigned said = (decides_sparing(rules) ? SPARE_IS_DECIDED : 0u) |
-	                (a->lights_change || rules->lights_count ? SPARE_NEW_LIGHTS : 0u);
+	unsigned flags = (decides_sparing(rules) ? SPARE_IS_DECIDED : 0u) |
+	                 (a->lights_change || rules->lights_count ? SPARE_NEW_LIGHTS : 0u);
 
 	if (rules->replace && !*rules->replace)
-		return said | SPARE_TRICKS_STAY;
+		return flags | SPARE_TRICKS_STAY;
 	for (uint32_t k = 0; k < rules->surfaces_count; k++)
-		said |= rules->surfaces[k].left_out ? SPARE_TRICKS_KNOWN : 0u;
-	return said;
+		flags |= rules->surfaces[k].left_out ? SPARE_TRICKS_KNOWN : 0u;
+	return flags;
 }
 
 int look_apply(const struct look *look, const struct scene *scene, struct scene *out, struct spare *found)
@@ -193,7 +199,7 @@ int look_apply(const struct look *look, const struct scene *scene, struct scene 
 	int err = match_begin(&a);
 
 	if (!err)
-		err = spare_find(scene, said_of_sparing(&a), &spare);
+		err = spare_find(scene, sparing_flags(&a), &spare);
 	spare.kept = !look_spares(look);
 	a.spare = spare.kept ? NULL : &spare;
 	if (!err)

@@ -9,19 +9,19 @@
 #define DEGREE 0.017453292519943295f
 /* Positions are equal if they agree in this many steps of the mesh's size: programs close circles with sin(2 pi). */
 #define STEPS 262144.0f
-/* at one position; a larger fan stays flat */
+/* Most corners at one position: with more, each corner keeps the normal of its face. */
 enum { MOST_CORNERS = 1024 };
 
 struct corner {
-	int32_t place[3];
+	int32_t place[3]; /* position, in STEPS */
 	uint32_t number; /* 3 x primitive + corner */
 };
 
 /* One primitive. */
 struct facet {
 	float normal[3]; /* unit vector on the side of the program's normal; all 0: the primitive has no area */
-	float angle[3];  /* at its corners */
-	int is_flat;
+	float angle[3];  /* at its corners, radians */
+	int is_flat;     /* 1: it is shaded flat, or its corners have the same normal */
 };
 
 static void subtract(const float a[3], const float b[3], float out[3])
@@ -35,7 +35,7 @@ static float dot(const float a[3], const float b[3])
 	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* @return the length before */
+/* Normalize a vector in place; 0 stays 0. @return its length before */
 static float normalize(float v[3])
 {
 	const float length = sqrtf(dot(v, v));
@@ -70,7 +70,6 @@ static struct facet facet_of(const struct scene_mesh *mesh, uint32_t primitive, 
 		f.angle[i] = acosf(fmaxf(-1, fminf(1, -dot(edge[i], edge[(i + 2) % 3]))));
 	for (int k = 0; k < 3; k++)
 		f.normal[k] = edge[0][(k + 1) % 3] * edge[1][(k + 2) % 3] - edge[0][(k + 2) % 3] * edge[1][(k + 1) % 3];
-	/* The last corner's normal is the one used under flat shading. */
 	normalize(f.normal);
 	sign = dot(f.normal, corner_normal(mesh, first + 2)) < 0 ? -1 : 1;
 	for (int k = 0; k < 3; k++)
@@ -108,7 +107,11 @@ static void sort_corners(const struct scene_mesh *mesh, struct corner *corners)
 	qsort(corners, n, sizeof(*corners), compare_corners);
 }
 
-/* The mean normal of a corner and the others at its position. */
+/*
+ * The normal of corner `own`: the mean over the faces of all corners at its position, as in crease_smooth.
+ * @param corners, n  those at its position, with `own`
+ * @param least       cosine of the largest angle between faces that are smoothed over
+ */
 static void mean_normal(const struct facet *facets, const struct corner *corners, uint32_t n, const struct corner *own,
                         float least, float out[3])
 {
@@ -124,6 +127,7 @@ static void mean_normal(const struct facet *facets, const struct corner *corners
 	memcpy(out, normalize(sum) > 0 ? sum : face, sizeof(sum));
 }
 
+/* @param corners  sorted. @param out  [3 * primitive_count][3] */
 static void smooth_all(const struct scene_mesh *mesh, const struct facet *facets, const struct corner *corners,
                        float angle, float *out)
 {

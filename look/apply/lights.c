@@ -14,10 +14,10 @@ int lights_in_world(const struct light_rule *r)
 	return r->space && strcmp(r->space, "world") == 0;
 }
 
-/* Bits for the surfaces that an added light reaches, as in applying.lights_change. */
+/* Bits LIGHTS_ON_* for the surfaces that an added light reaches. */
 static int lit_by(const struct light_rule *r)
 {
-	return r->on && strcmp(r->on, "unlit") == 0 ? 1 : 3;
+	return r->on && strcmp(r->on, "unlit") == 0 ? LIGHTS_ON_UNLIT : LIGHTS_ON_UNLIT | LIGHTS_ON_LIT;
 }
 
 int lights_change_of(const struct light_rule *r)
@@ -143,7 +143,7 @@ uint32_t lights_list(const struct applying *a, const struct scene_instance *in, 
 			                     .attenuation = { 1, 0, 0 }, .index = SCENE_NONE };
 		uint32_t at = n, weakest = own;
 
-		if (r->light || (r->off && *r->off) || !(lit_by(r) >> (m->lighting != 0) & 1))
+		if (r->light || (r->off && *r->off) || !(lit_by(r) & (m->lighting ? LIGHTS_ON_LIT : LIGHTS_ON_UNLIT)))
 			continue;
 		set_light(a, &light, r);
 		strength[at % SCENE_MAX_LIGHTS] = 0;

@@ -6,8 +6,7 @@
 /** 1 if a rule places its light in the world rather than in eye space. */
 int lights_in_world(const struct light_rule *r);
 
-/** Bits for the surfaces whose light a rule changes, as in applying.lights_change. 0: the rule only gives a light a
- * size. */
+/** LIGHTS_ON_UNLIT and LIGHTS_ON_LIT, if a rule changes the light of such surfaces. 0: it only gives a light a size. */
 int lights_change_of(const struct light_rule *r);
 
 /** A light's position in eye space. If the frame does not draw its object, the position is taken as written. */

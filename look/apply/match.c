@@ -11,6 +11,7 @@
 #include "look/draws/plane.h"
 #include "look/rules/world.h"
 
+/* 1 if one of a material's textures has a hash that begins with the text. */
 static int has_texture(const struct scene *s, const struct scene_material *m, const char *text)
 {
 	for (uint32_t i = 0; i < m->unit_count; i++)
@@ -19,11 +20,13 @@ static int has_texture(const struct scene *s, const struct scene_material *m, co
 	return 0;
 }
 
+/* 1 if a rule asks for a property (NULL: it does not) and the instance differs. */
 static int differs(const bool *wanted, int is)
 {
 	return wanted && *wanted != (is != 0);
 }
 
+/* 1 if an instance has all that a rule asks for, except in_plane. r NULL: nothing */
 static int matches(const struct scene *s, const struct scene_instance *in, const struct match *r,
                    const struct frame_list *draws)
 {
@@ -56,7 +59,8 @@ static int is_kept(const struct rules *rules, const struct surface_rule *r)
 	return rules->replace && !*rules->replace && (r->left_out || r->solid || r->shadow_unit);
 }
 
-static int is_where_said(const struct applying *a, const struct scene_instance *in, uint32_t k)
+/* 1 if an instance lies in the plane that rule k asks for, if any. Keeps the answer (applying.in_plane). */
+static int is_in_plane(const struct applying *a, const struct scene_instance *in, uint32_t k)
 {
 	const struct match *r = a->rules->surfaces[k].match;
 	uint8_t *known;
@@ -80,7 +84,7 @@ int match_applies(const struct applying *a, const struct scene_instance *in, uin
 
 	if (is_kept(a->rules, r) || (is_reflection && !a->has_mirror))
 		return 0;
-	return matches(a->scene, in, r->match, &a->look->draws[k]) && is_where_said(a, in, k);
+	return matches(a->scene, in, r->match, &a->look->draws[k]) && is_in_plane(a, in, k);
 }
 
 /* 1 if the frame has a solid mirror, or rules have none. */
@@ -108,7 +112,8 @@ int match_begin(struct applying *a)
 
 	a->rules = a->look ? a->look->rules : &none;
 	for (uint32_t k = 0; k < a->rules->surfaces_count; k++)
-		a->lights_change |= (a->rules->surfaces[k].shadow_unit ? 4 : 0) | (a->rules->surfaces[k].crease ? 8 : 0);
+		a->lights_change |= (a->rules->surfaces[k].shadow_unit ? LIGHTS_SHADOW_UNITS : 0) |
+		                    (a->rules->surfaces[k].crease ? LIGHTS_CREASES : 0);
 	for (uint32_t k = 0; k < a->rules->lights_count; k++) {
 		a->lights_change |= lights_change_of(&a->rules->lights[k]);
 		in_world |= lights_in_world(&a->rules->lights[k]);

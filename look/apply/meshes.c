@@ -22,7 +22,7 @@ static float crease_of(const struct applying *a, const struct scene_instance *in
 int meshes_smooth(const struct applying *a, uint32_t i, struct scene_instance *placed, struct scene_material *m)
 {
 	const struct scene_instance *in = &a->scene->instances[i];
-	const float angle = a->lights_change & 8 && m->lighting && !(m->surface.hidden & SCENE_UNSHADED) ?
+	const float angle = a->lights_change & LIGHTS_CREASES && m->lighting && !(m->surface.hidden & SCENE_UNSHADED) ?
 	                            crease_of(a, in) :
 	                            0;
 	struct scene_mesh *mesh = NULL;
@@ -47,7 +47,10 @@ int meshes_wants_repair(const struct applying *a, const struct scene_instance *i
 	return rule && repaired_wants(rule, a->scene, in, m, wants);
 }
 
-/* 1 if the viewer is outside a body. @param mesh  the instance's; closed */
+/*
+ * 1 if the viewer is outside a body, or has no place (parallel projection, singular modelview).
+ * @param mesh  the instance's, repaired and closed
+ */
 static int is_outside(const struct scene *s, const struct scene_instance *in, const struct scene_mesh *mesh)
 {
 	float obj_from_eye[16], viewer[4];
@@ -68,7 +71,7 @@ int meshes_repair(const struct applying *a, uint32_t i)
 	struct repair_found found;
 	int err;
 
-	m[0] = m[1] = out->materials[own->material];
+	m[0] = m[1] = out->materials[own->material]; /* [0]: for the program's mesh; [1]: for the repaired one */
 	if (!meshes_wants_repair(a, &a->scene->instances[i], m, &wants))
 		return 0;
 	err = repaired_find(a->look->repaired, a->scene->meshes[a->scene->instances[i].mesh], &wants, &mesh, &found);

@@ -13,10 +13,15 @@
 #include "look/rules/repaired.h"
 #include "scene/draw_list.h"
 
-enum { TOLD_BYTES = 250, TOLD_DRAWS = 90, MOST_REPAIRS = 64 };
+enum {
+	LINE_BYTES = 250,       /* a whole line; longer ones are cut off */
+	DETAIL_BYTES = 90,      /* its list of draws, or its light's position */
+	RANGE_BYTES = 24,       /* one more range in that list, ",4294967295-4294967295", and the final 0 */
+	MOST_REPAIR_LINES = 64, /* per frame */
+};
 
-/* 1 if an earlier rule for surfaces has the same role as the k-th; they share a line. */
-static int is_told(const struct rules *rules, uint32_t k)
+/* 1 if an earlier rule for surfaces has the same role as the k-th: rules with one role share a line. */
+static int is_repeated_role(const struct rules *rules, uint32_t k)
 {
 	for (uint32_t i = 0; i < k; i++)
 		if (rules->surfaces[i].reason.role && strcmp(rules->surfaces[i].reason.role, rules->surfaces[k].reason.role) == 0)
@@ -24,6 +29,7 @@ static int is_told(const struct rules *rules, uint32_t k)
 	return 0;
 }
 
+/* 1 if any rule with this role applies to an instance. */
 static int has_role(const struct applying *a, const struct scene_instance *in, const char *role)
 {
 	for (uint32_t k = 0; k < a->rules->surfaces_count; k++)
@@ -33,27 +39,27 @@ static int has_role(const struct applying *a, const struct scene_instance *in, c
 	return 0;
 }
 
-struct with_role {
+struct role_filter {
 	const struct applying *a;
 	const char *role;
 };
 
-static int is_with_role(const void *user, const struct scene *scene, uint32_t i)
+static int instance_has_role(const void *user, const struct scene *scene, uint32_t i)
 {
-	const struct with_role *w = user;
+	const struct role_filter *w = user;
 
 	return has_role(w->a, &scene->instances[i], w->role);
 }
 
-/* The draws of a role, as ranges, cut off if there are too many. @return 0 or ERR_SYSTEM (reported) */
-static int list_draws(const struct applying *a, const char *role, char out[TOLD_DRAWS])
+/* The draws of a role as whole ranges, as many as fit. @return 0 or ERR_SYSTEM (reported) */
+static int list_draws(const struct applying *a, const char *role, char out[DETAIL_BYTES])
 {
-	char *all = scene_draw_list(a->scene, is_with_role, &(struct with_role){ a, role });
+	char *all = scene_draw_list(a->scene, instance_has_role, &(struct role_filter){ a, role });
 	size_t n = all ? strcspn(all, ",") : 0;
 
 	if (!all)
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
-	while (all[n] && n < TOLD_DRAWS - 24)
+	while (all[n] && n < DETAIL_BYTES - RANGE_BYTES)
 		n += 1 + strcspn(all + n + 1, ",");
 	memcpy(out, all, n);
 	out[n] = 0;
@@ -61,10 +67,11 @@ static int list_draws(const struct applying *a, const char *role, char out[TOLD_
 	return 0;
 }
 
+/* Pass one line. kind: "surface" or "light"; what: the draws, or the light's position */
 static int tell_one(const char *kind, const struct rule_reason *r, const char *what,
                     int (*tell)(void *user, const char *text), void *user)
 {
-	char text[TOLD_BYTES];
+	char text[LINE_BYTES];
 
 	snprintf(text, sizeof(text), "%s\t%.40s\t%.2f\t%s\t%s", kind, r->role,
 	         r->confidence ? (double)*r->confidence : 1.0, what, r->why ? r->why : "");
@@ -76,9 +83,9 @@ static int tell_surfaces(const struct applying *a, int (*tell)(void *user, const
 	int err = 0;
 
 	for (uint32_t k = 0; k < a->rules->surfaces_count && !err; k++) {
-		char draws[TOLD_DRAWS];
+		char draws[DETAIL_BYTES];
 
-		if (!a->rules->surfaces[k].reason.role || is_told(a->rules, k))
+		if (!a->rules->surfaces[k].reason.role || is_repeated_role(a->rules, k))
 			continue;
 		err = list_draws(a, a->rules->surfaces[k].reason.role, draws);
 		if (!err && draws[0])
@@ -87,16 +94,18 @@ static int tell_surfaces(const struct applying *a, int (*tell)(void *user, const
 	return err;
 }
 
-/* Report the first instance of each repaired mesh, and its repair. */
+/* Report each repaired mesh with the draw of its first instance. Consecutive instances of a mesh share a line. */
 static int tell_repairs(const struct applying *a, int (*tell)(void *user, const char *text), void *user)
 {
 	const struct scene *s = a->scene;
-	const struct scene_mesh *last = NULL;
+	const struct scene_mesh *last = NULL; /* reported last */
 	int err = 0;
 
-	for (uint32_t i = 0, n = 0; i < s->n_instances && n < MOST_REPAIRS && !err && a->look && a->look->repaired; i++) {
+	if (!a->look || !a->look->repaired)
+		return 0;
+	for (uint32_t i = 0, n = 0; i < s->n_instances && n < MOST_REPAIR_LINES && !err; i++) {
 		const struct scene_instance *in = &s->instances[i];
-		char text[TOLD_BYTES], why[TOLD_BYTES - 50];
+		char text[LINE_BYTES], why[LINE_BYTES - 50];
 		const struct scene_mesh *mesh;
 		struct repair_wants wants;
 		struct repair_found found;
@@ -123,13 +132,14 @@ static int tell_repairs(const struct applying *a, int (*tell)(void *user, const 
 	return err;
 }
 
+/* Report added and changed lights, then the sky and highlights, which have no position. */
 static int tell_lights(const struct applying *a, int (*tell)(void *user, const char *text), void *user)
 {
 	int err = 0;
 
 	for (uint32_t k = 0; k < a->rules->lights_count && !err; k++) {
 		const struct light_rule *r = &a->rules->lights[k];
-		char place[TOLD_DRAWS] = "";
+		char place[DETAIL_BYTES] = "";
 		float at[4];
 
 		if (!r->reason.role)

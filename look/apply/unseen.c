@@ -48,6 +48,7 @@ static int is_same_place(const float a[16], const float b[16])
 	return 1;
 }
 
+/* 1 if a scene draws a mesh at a place. */
 static int is_drawn(const struct scene *s, const struct scene_mesh *mesh, const float modelview[16])
 {
 	for (uint32_t i = 0; i < s->n_instances; i++)
@@ -71,7 +72,7 @@ static int can_move(const struct scene *s, const struct scene_instance *in)
 	return 1;
 }
 
-/* The mean of the corners, and a normal of twice the area. */
+/* A primitive's middle, and a normal as long as twice its area; in the modelview's space. */
 static void find_middle(const struct scene_mesh *mesh, const float modelview[16], uint32_t primitive, float middle[3],
                         float normal[3])
 {
@@ -271,6 +272,7 @@ static int find_main_view(struct adding *a)
 	return most > 0;
 }
 
+/* Add what rule k lists of its frame, if that frame shows the same part of the world. */
 static int add_frame(struct adding *a, uint32_t k, const float eye_from_world[16], uint32_t part)
 {
 	const struct scene *from = a->look->unseen[k].scene;
