@@ -5,7 +5,7 @@
 
 #include "base/err.h"
 
-/* One failing pixel. */
+/* One failing pixel, counted against a draw. */
 struct vote {
 	uint32_t draw;
 	uint32_t at; /* pixel index */

@@ -7,9 +7,9 @@
 
 #include "diff/score/picture.h"
 
-/* E1: tolerance of a sum, relative to its size. */
-#define OFF_HALF 0x1p-9
-#define OFF_FLOAT 1e-5
+/* Tolerance of a sum relative to the size of its terms, for layers stored as halves and as floats. */
+#define TOLERANCE_HALF 0x1p-9
+#define TOLERANCE_FLOAT 1e-5
 
 static const struct image_channel *find_channel(const struct image *img, const char *layer, int c)
 {
@@ -35,8 +35,8 @@ static int holds_halves(const struct image_channel *channel, size_t n)
 	return 1;
 }
 
-/** The stored value of an effect channel, or the default if it is absent. */
-static double effect_at(const struct image_channel *channel, size_t i, double absent)
+/** The stored value of a channel, or `absent` if there is no such channel. */
+static double value_at(const struct image_channel *channel, size_t i, double absent)
 {
 	return channel ? (double)channel->values[i] : absent;
 }
@@ -49,7 +49,7 @@ enum { LAYER_BEAUTY, LAYER_GL, LAYER_SHADOW, LAYER_RELIGHT, LAYER_REFLECT, LAYER
  * file holds the renderer's --aov list; a file without one holds every effect that occurred.
  * @param first  receives the name of the first that is missing
  */
-static int left_out_effects(const struct image *img, const char **first)
+static int find_left_out(const struct image *img, const char **first)
 {
 	static const char *const groups[] = { "shadow", "relight", "reflect", "refract" };
 	const char *aov = image_attribute(img, "relume:aov");
@@ -72,19 +72,19 @@ static int left_out_effects(const struct image *img, const char **first)
 
 /* The channels of these layers, [R, G, B], and the tolerance of their sums. */
 struct layers {
-	const struct image_channel *channels[3][N_LAYERS];
+	const struct image_channel *channels[3][N_LAYERS]; /* [colour][layer]; NULL: the frame has no such channel */
 	double relative, absolute;
-	int any_effect;
+	int any_effect; /* 1: there is an effect channel */
 };
 
-/** @return 0 if beauty or gl is missing */
+/** Find the layers, and the tolerance that suits their precision. @return 0 if beauty or gl is missing */
 static int find_layers(const struct image *img, struct layers *out)
 {
 	static const char *const names[N_LAYERS] = { "", "gl", "shadow", "relight", "reflect", "refract" };
 	const size_t n = (size_t)img->width * img->height;
 	int halves = 0, all_halves = 1;
 
-	*out = (struct layers){ .relative = OFF_FLOAT, .absolute = 1e-12 };
+	*out = (struct layers){ .relative = TOLERANCE_FLOAT, .absolute = 1e-12 };
 	for (int c = 0; c < 3; c++)
 		for (int l = 0; l < N_LAYERS; l++) {
 			const struct image_channel *channel = find_channel(img, names[l], c);
@@ -104,7 +104,8 @@ static int find_layers(const struct image *img, struct layers *out)
 	return 1;
 }
 
-/* Findings for one pixel: bits of the effects that touch it, then these. */
+/* Findings for one pixel: bit EFFECT_x is set if that effect touches it. Above these: the layers do not add up to the
+ * beauty; the beauty differs from gl. */
 enum { PIXEL_OPEN = 1 << N_SCORE_EFFECTS, PIXEL_DIFFERS = 2 << N_SCORE_EFFECTS };
 
 /* Compare the sum of a pixel's layers. worst: raised to its error, in tolerances. @return findings */
@@ -114,10 +115,10 @@ static unsigned look_at_pixel(const struct layers *l, size_t i, double *worst)
 
 	for (int c = 0; c < 3; c++) {
 		const struct image_channel *const *ch = l->channels[c];
-		double beauty = effect_at(ch[LAYER_BEAUTY], i, 0), gl = effect_at(ch[LAYER_GL], i, 0);
-		double shadow = effect_at(ch[LAYER_SHADOW], i, 1);
-		double more[3] = { effect_at(ch[LAYER_RELIGHT], i, 0), effect_at(ch[LAYER_REFLECT], i, 0),
-			           effect_at(ch[LAYER_REFRACT], i, 0) };
+		double beauty = value_at(ch[LAYER_BEAUTY], i, 0), gl = value_at(ch[LAYER_GL], i, 0);
+		double shadow = value_at(ch[LAYER_SHADOW], i, 1);
+		double more[3] = { value_at(ch[LAYER_RELIGHT], i, 0), value_at(ch[LAYER_REFLECT], i, 0),
+			           value_at(ch[LAYER_REFRACT], i, 0) };
 		double sum = gl * shadow + more[0] + more[1] + more[2];
 		double size = fabs(gl * shadow) + fabs(more[0]) + fabs(more[1]) + fabs(more[2]);
 		double allowed = l->relative * fmax(size, fabs(beauty)) + l->absolute;
@@ -152,7 +153,7 @@ void gate_count_effects(struct gate_frame *f)
 
 		if (score_ignores(f->ref, i))
 			continue;
-		found = look_at_pixel(&layers, i, &closure->worst);
+		found = check_pixel(&layers, i, &closure->worst);
 		is_open = !!(found & PIXEL_OPEN);
 		is_unexplained = found & PIXEL_DIFFERS && !(found & 1u << EFFECT_ANY);
 		for (int k = 0; k < N_SCORE_EFFECTS; k++)
@@ -174,7 +175,7 @@ static int can_close(struct gate_frame *f, enum score_gate_id id)
 		gate_note(f, id, "the frame has no channels R and gl.R");
 	else if (f->closure.open && image_attribute(f->img, "relume:denoised"))
 		gate_note(f, id, "the beauty is denoised, so channels of effects do not add up to it");
-	else if (f->closure.open && left_out_effects(f->img, &left_out))
+	else if (f->closure.open && find_left_out(f->img, &left_out))
 		gate_note(f, id, "the frame was rendered without %s channels", left_out);
 	else
 		return 1;
@@ -187,7 +188,7 @@ int gate_closure(struct gate_frame *f)
 		return 0;
 	gate_measure(f, GATE_E1, 0, (double)f->closure.open);
 	gate_note(f, GATE_E1, "worst is %.3g of the bar (relative %s)%s", f->closure.worst,
-	          f->closure.relative == OFF_HALF ? "2^-9" : "1e-5",
+	          f->closure.relative == TOLERANCE_HALF ? "2^-9" : "1e-5",
 	          f->closure.any_effect ? "" : "; no effect channels: beauty must equal gl");
 	return 0;
 }

@@ -12,7 +12,7 @@ void gate_count_colors(struct gate_frame *f);
 /** Fill f->closure and the shares of effects (effects.c). */
 void gate_count_effects(struct gate_frame *f);
 
-/** Find the draws that hold the blamed pixels (blame.c). @return 0 or ERR_SYSTEM (reported) */
+/** Find the draws visible at the blamed pixels (blame.c). @return 0 or ERR_SYSTEM (reported) */
 int gate_blame(const struct gate_frame *f);
 
 /** Measure how well pixels agree for each program that ran (programs.c). @return 0 or ERR_SYSTEM (reported) */
