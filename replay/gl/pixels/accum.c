@@ -23,6 +23,7 @@
 #define ONE 32767.0f /* the stored value of 1 */
 #define PIXELS_A_REPEAT 256 /* this many count as one operation of a list (gls_is_beyond_measure) */
 
+/* Pixels x0 <= x < x1, y0 <= y < y1; row 0 at the bottom. */
 struct area {
 	int64_t x0, y0, x1, y1;
 };
@@ -72,7 +73,7 @@ static int is_whole(const struct gls_drawable *d, const struct area *a)
 
 static int16_t clamp16(float v)
 {
-	return (int16_t)(v < -ONE ? -ONE : v > ONE ? ONE : v == v ? v : 0);
+	return (int16_t)(v < -UNIT ? -UNIT : v > UNIT ? UNIT : v == v ? v : 0);
 }
 
 /* Overflow wraps round, as in Mesa: the specification leaves it undefined. */
@@ -81,7 +82,7 @@ static int16_t wrap16(float v)
 	return fabsf(v) < 0x1p31f ? (int16_t)(uint32_t)(int32_t)v : 0;
 }
 
-/* The value of a stored byte of a component (3: alpha). */
+/* The value, 0 .. 1, that a byte of the picture adds. component: 3 is alpha, which sRGB does not encode */
 static float value_of(const struct gls_state *st, uint8_t byte, unsigned component)
 {
 	float v = (float)byte / 255;
@@ -94,14 +95,14 @@ struct change {
 	float scale, offset[4], factor;
 };
 
-/* p: the colours, or NULL */
+/* Apply a change to all stored values in an area. p: the colours, or NULL */
 static void change_area(struct gls_exec *x, const struct gls_state *st, struct gls_drawable *d, const struct area *a,
                         const struct change *by, const struct scene_picture *p)
 {
 	const int64_t width = a->x1 > a->x0 ? a->x1 - a->x0 : 0, height = a->y1 > a->y0 ? a->y1 - a->y0 : 0;
 
 	if (x->list_depth &&
-	    gls_is_beyond_measure(x, (uint64_t)(width * height) / PIXELS_A_REPEAT, "lists that accumulate without end"))
+	    gls_is_beyond_measure(x, (uint64_t)(width * height) / PIXELS_PER_OPERATION, "lists that accumulate without end"))
 		return;
 	for (int64_t row = a->y0; row < a->y1; row++)
 		for (int64_t column = a->x0; column < a->x1; column++) {
@@ -114,13 +115,13 @@ static void change_area(struct gls_exec *x, const struct gls_state *st, struct g
 					v += (float)wrap16(
 						value_of(st, p->rgba[4 * ((size_t)row * p->width + (size_t)column) + c],
 					                 c) *
-						by->factor * ONE);
+						by->factor * UNIT);
 				d->accum[at + c] = wrap16(v);
 			}
 		}
 }
 
-/* RETURN: these fragments are only affected by the scissor and the colour mask. */
+/* GL_RETURN: draw the sums times a value. Only the scissor and the colour mask affect these fragments. */
 static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls_drawable *d, const struct area *a,
                       float value)
 {
@@ -129,7 +130,7 @@ static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls
 
 	for (uint32_t y = 0; texels && y < height; y++)
 		for (uint32_t i = 0; i < 4 * width; i++) {
-			float v = (float)d->accum[4 * (((size_t)a->y0 + y) * d->accum_width + (size_t)a->x0) + i] / ONE * value;
+			float v = (float)d->accum[4 * (((size_t)a->y0 + y) * d->accum_width + (size_t)a->x0) + i] / UNIT * value;
 
 			v = v > 0 ? v < 1 ? v : 1 : 0;
 			texels[4 * (size_t)y * width + i] = (uint8_t)((st->srgb && i % 4 < 3 ? gls_srgb_from_linear(v) : v) * 255 + 0.5f);
@@ -149,7 +150,7 @@ static void give_back(struct gls_exec *x, struct gls_state *st, const struct gls
 GLS_HANDLER(glAccum, STATE)
 {
 	uint32_t op = arg_u(c, 0);
-	const float value = arg_f(c, 1), every = (float)wrap16(value * ONE);
+	const float value = arg_f(c, 1), addend = (float)wrap16(value * UNIT);
 	const struct scene_picture *p = NULL;
 	struct area area;
 	struct gls_drawable *d;
@@ -176,7 +177,7 @@ GLS_HANDLER(glAccum, STATE)
 	else if (op == GL_RETURN)
 		give_back(x, st, d, &area, value);
 	else if (op == GL_ADD)
-		change_area(x, st, d, &area, &(struct change){ 1, { every, every, every, every }, 0 }, NULL);
+		change_area(x, st, d, &area, &(struct change){ 1, { addend, addend, addend, addend }, 0 }, NULL);
 	else if (op == GL_MULT)
 		change_area(x, st, d, &area, &(struct change){ .scale = value }, NULL);
 	else
@@ -197,7 +198,7 @@ void gls_accum_clear(struct gls_exec *x, struct gls_state *st)
 	if (!x->want || !(d = drawable_of(x, st, &area)))
 		return;
 	for (unsigned i = 0; i < 4; i++) {
-		to.offset[i] = (float)clamp16(st->a.accum.clear[i] * ONE);
+		to.offset[i] = (float)clamp16(st->a.accum.clear[i] * UNIT);
 		is_zero &= to.offset[i] == 0;
 	}
 	if (is_whole(d, &area))

@@ -1,4 +1,4 @@
-/* Pixel storage modes, pixel transfer and pixel maps (GL 2.1 sec. 3.6.1, 3.6.3). */
+/* Pixel storage modes, pixel transfer, pixel maps and PixelZoom (GL 2.1 sec. 3.6.1, 3.6.3, 3.6.4). */
 #include <stddef.h>
 #include <string.h>
 
@@ -11,6 +11,12 @@
 #include "replay/machine/machine.h"
 
 /* ---- storage, sec. 3.6.1 ---- */
+
+/*
+ * The largest value of a storage mode. GL has no such limit; here it keeps offsets computed from the modes within 64
+ * bits (replay/gl/texture/unpack.c).
+ */
+enum { MOST_STORED = 1 << 24 };
 
 GLS_FAMILY(glPixelStore, CLIENT)
 {
@@ -28,7 +34,9 @@ GLS_FAMILY(glPixelStore, CLIENT)
 	uint32_t name = arg_u(c, 0);
 	int64_t value = arg_i(c, 1);
 
-	for (size_t i = 0; value >= 0 && value <= 1 << 24 && i < sizeof(modes) / sizeof(modes[0]); i++) {
+	if (gls_refuses(x, st, value < 0 || value > MOST_STORED, GL_INVALID_VALUE))
+		return;
+	for (size_t i = 0; i < sizeof(modes) / sizeof(modes[0]); i++) {
 		struct gls_pixel_store *s = name == modes[i].pack ? &st->client.pack : &st->client.unpack;
 		int boolean = modes[i].place == AT(swap_bytes) || modes[i].place == AT(lsb_first);
 		int32_t word = boolean ? value != 0 : (int32_t)value;
@@ -41,7 +49,7 @@ GLS_FAMILY(glPixelStore, CLIENT)
 			memcpy((uint8_t *)s + modes[i].place, &word, sizeof(word));
 		return;
 	}
-	gls_error(x, st, value < 0 || value > 1 << 24 ? GL_INVALID_VALUE : GL_INVALID_ENUM);
+	gls_error(x, st, GL_INVALID_ENUM);
 #undef AT
 }
 
@@ -82,8 +90,13 @@ GLS_HANDLER(glPixelZoom, STATE)
 
 /* ---- pixel maps, sec. 3.6.3 ---- */
 
-/* Read numbers from the bound unpack buffer. @return 0, or -1: it is too small */
-static int buffered(struct gls_state *st, const struct call *c, uint32_t size, enum gls_suffix_type type, float *out)
+/*
+ * Read the values of a pixel map that are stored as bytes: in the bound unpack buffer, or in a blob of the recording.
+ * Integers are not normalized yet.
+ * @return 0, or -1: there are too few bytes
+ */
+static int read_from_bytes(struct gls_state *st, const struct call *c, uint32_t size, enum gls_suffix_type type,
+                           float *out)
 {
 	size_t n, bytes = type == GLS_SUFFIX_US ? 2 : 4;
 	const uint8_t *data = gls_pixel_source(st, c, 2, &n);
@@ -107,19 +120,22 @@ GLS_FAMILY(glPixelMap, STATE)
 	const enum gls_suffix_type type = gls_commands[x->command].suffix.type;
 	uint32_t which = arg_u(c, 0) - GL_PIXEL_MAP_I_TO_I, size = arg_u(c, 1);
 	struct gls_pixel_map *m = &st->pixel_maps[which < N_GLS_PIXEL_MAPS ? which : 0];
-	int indices = which < 2; /* I_TO_I and S_TO_S map to indices, the others to colours */
+	int from_index = which < 6; /* I_TO_I, S_TO_S and I_TO_R .. I_TO_A map indices: their size is a power of two */
+	int to_index = which < 2; /* I_TO_I and S_TO_S map to indices, the others to colours */
+	int in_bytes, is_missing;
 
 	if (gls_refuses(x, st, which >= N_GLS_PIXEL_MAPS, GL_INVALID_ENUM))
 		return;
-	if (gls_refuses(x, st, !size || size > GLS_MAX_PIXEL_MAP || (which < 6 && size & (size - 1)), GL_INVALID_VALUE))
+	if (gls_refuses(x, st, !size || size > GLS_MAX_PIXEL_MAP || (from_index && size & (size - 1)), GL_INVALID_VALUE))
 		return;
 	memset(m, 0, sizeof(*m));
 	m->size = size;
 	if (gls_client_store(x, st)->buffer)
 		gls_buffer_keep(x, gls_buffer_find(st, st->client.unpack.buffer));
-	if (gls_client_store(x, st)->buffer || arg(c, 2)->type == TRACE_BLOB ? buffered(st, c, size, type, m->values) :
-	                                                                       arg_floats(c, 2, m->values, size) < size)
+	in_bytes = gls_client_store(x, st)->buffer || arg(c, 2)->type == TRACE_BLOB;
+	is_missing = in_bytes ? read_from_bytes(st, c, size, type, m->values) != 0 : arg_floats(c, 2, m->values, size) < size;
+	if (is_missing)
 		gls_unsupported(x, "pixel maps that are not in the recording");
-	for (uint32_t i = 0; i < size && !indices && type != GLS_SUFFIX_F; i++)
+	for (uint32_t i = 0; i < size && !to_index && type != GLS_SUFFIX_F; i++)
 		m->values[i] /= type == GLS_SUFFIX_US ? 65535.0f : 4294967295.0f;
 }
