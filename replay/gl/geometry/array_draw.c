@@ -25,6 +25,7 @@
  * of the vertices of each kind of primitive. */
 #define MOST_BEYOND 12
 
+/* Append the vertex of an element. @return 0 or ERR_SYSTEM (reported) */
 static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls_geometry *g,
                       const struct gls_sources *s, uint64_t element)
 {
@@ -45,7 +46,11 @@ static int add_vertex(struct gls_exec *x, const struct gls_state *st, struct gls
 	return 0;
 }
 
-/* Read the vertices of a draw; elements NULL: `count` of them from `first` on. Each element becomes one vertex. */
+/*
+ * Read the vertices of a draw into the scratch geometry. elements NULL: `count` of them from `first` on. Each element
+ * becomes one vertex.
+ * @return 0, ERR_INPUT (counted: indices beyond the end of client arrays) or ERR_SYSTEM (reported)
+ */
 static int collect(struct gls_exec *x, const struct gls_state *st, const struct gls_sources *s, uint32_t mode,
                    uint32_t first, uint32_t count, const uint32_t *elements)
 {
@@ -99,8 +104,12 @@ static int collect(struct gls_exec *x, const struct gls_state *st, const struct 
 	return 0;
 }
 
-/* kept: what a list stores instead of `mesh`; point_size: overrides the state's unless negative */
-static void put(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, struct gls_mesh *kept,
+/*
+ * Draw a mesh, or add it to the list being compiled, or both.
+ * @param kept        the mesh that a list stores instead
+ * @param point_size  overrides the state's unless negative
+ */
+static void draw_or_store(struct gls_exec *x, struct gls_state *st, struct gls_mesh *mesh, struct gls_mesh *kept,
                 float point_size)
 {
 	struct gls_op_mesh op = { .mesh = kept, .n_draws = 1, .given = kept->mesh.attributes,
@@ -172,7 +181,7 @@ static void draw_sized(struct gls_exec *x, struct gls_state *st, struct gls_sour
 		                 gls_sources_key(st, s, GL_POINTS, elements ? identity + begin : first + begin,
 		                                 (uint64_t)(end - begin) << 1 | (elements != NULL)));
 		if (mesh)
-			put(x, st, mesh, mesh, size[0] > 0 ? size[0] : 0);
+			draw_or_store(x, st, mesh, mesh, size[0] > 0 ? size[0] : 0);
 	}
 }
 
@@ -219,9 +228,10 @@ static void draw(struct gls_exec *x, struct gls_state *st, uint32_t mode, uint32
 	    gls_quads_turn(st, gls_shades_flat(st), mesh->mesh.position, mesh->mesh.index, mesh->mesh.primitive_count))
 		mesh = find_mesh(x, st, &s, mode, first, count, elements, 1, ~key);
 	if (mesh)
-		put(x, st, mesh, kept, -1);
+		draw_or_store(x, st, mesh, kept, -1);
 }
 
+/* @return 1; 0: the draw is refused (GL error), or too large (counted) */
 static int check_mode(struct gls_exec *x, struct gls_state *st, uint32_t mode, int64_t count)
 {
 	if (!gls_mode_kind(mode))

@@ -1,4 +1,4 @@
-/* Buffer object commands (GL 2.1 sec. 2.9): data, copies and mappings. */
+/* Buffer object commands (GL 2.1 sec. 2.9): bindings, data, copies and mappings. */
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +11,8 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-static struct gls_buffer *make_buffer(struct gls_exec *x, struct gls_state *st, uint32_t name)
+/* The buffer of this name, created if there is none. @return NULL: name 0, or out of memory (reported) */
+static struct gls_buffer *find_or_make(struct gls_exec *x, struct gls_state *st, uint32_t name)
 {
 	struct gls_buffer *b = gls_buffer_find(st, name);
 
@@ -23,6 +24,7 @@ static struct gls_buffer *make_buffer(struct gls_exec *x, struct gls_state *st, 
 	return b;
 }
 
+/* Offset of the name of the buffer bound to each target; other targets are unsupported. */
 static const struct { uint32_t target, offset; } bindings[] = {
 	{ GL_ARRAY_BUFFER, offsetof(struct gls_client_attribs, array_buffer) },
 	{ GL_ELEMENT_ARRAY_BUFFER, offsetof(struct gls_client_attribs, element_buffer) },
@@ -39,8 +41,8 @@ static uint32_t *binding_at(struct gls_state *st, size_t i)
 	return (uint32_t *)((char *)&st->client + bindings[i].offset);
 }
 
-/* The name of the buffer bound to a target; NULL: a target that draws do not use. */
-static uint32_t *binding(struct gls_state *st, uint32_t target)
+/* The name of the buffer bound to a target; NULL: an unsupported target. */
+static uint32_t *find_binding(struct gls_state *st, uint32_t target)
 {
 	for (size_t i = 0; i < N_BINDINGS; i++)
 		if (bindings[i].target == target)
@@ -48,9 +50,10 @@ static uint32_t *binding(struct gls_state *st, uint32_t target)
 	return NULL;
 }
 
+/* The buffer bound to a target. @return NULL: none (GL error), or an unsupported target (counted) */
 static struct gls_buffer *bound_buffer(struct gls_exec *x, struct gls_state *st, uint32_t target)
 {
-	uint32_t *name = binding(st, target);
+	uint32_t *name = find_binding(st, target);
 	struct gls_buffer *b;
 
 	if (!name) {
@@ -65,17 +68,17 @@ static struct gls_buffer *bound_buffer(struct gls_exec *x, struct gls_state *st,
 
 GLS_HANDLER(glBindBuffer, CLIENT)
 {
-	uint32_t *name = binding(st, arg_u(c, 0));
+	uint32_t *name = find_binding(st, arg_u(c, 0));
 
 	if (!name) {
 		gls_unsupported(x, "buffer targets of later GL");
 		return;
 	}
 	*name = arg_u(c, 1);
-	make_buffer(x, st, *name);
+	find_or_make(x, st, *name);
 }
 
-/* x->maps holds the mapped buffers, each under its address. */
+/* Unmap a buffer if it is mapped, which also removes it from x->maps. NULL is allowed. */
 static void unmap_buffer(struct gls_exec *x, struct gls_buffer *b)
 {
 	if (b && b->mapped)
@@ -103,6 +106,7 @@ GLS_HANDLER(glDeleteBuffers, CLIENT)
 	}
 }
 
+/* Arguments: target, size, data. Bytes that are not in the recording are 0. */
 static void set_data(struct gls_exec *x, struct gls_state *st, const struct call *c)
 {
 	struct gls_buffer *b = bound_buffer(x, st, arg_u(c, 0));
@@ -145,6 +149,7 @@ GLS_HANDLER(glBufferData, CLIENT)
 }
 GLS_HANDLER(glBufferStorage, CLIENT) { set_data(x, st, c); }
 
+/* Write n bytes at an offset. Those beyond the buffer's end are dropped. */
 static void write_buffer(struct gls_exec *x, struct gls_buffer *b, uint64_t offset, const uint8_t *bytes, size_t n)
 {
 	if (!bytes || offset >= b->bytes)
@@ -182,10 +187,12 @@ GLS_HANDLER(glCopyBufferSubData, CLIENT)
 	}
 	if (n)
 		write_buffer(x, to, (uint64_t)write, from->data + read, (size_t)n);
+	/* The copy is unknown if the source range overlaps the source's unknown bytes. */
 	if (n && from->missing && read < (int64_t)from->missing_to && read + n > (int64_t)from->missing_from)
 		gls_buffer_lose(x, to, (size_t)write, (size_t)(write + n), from->missing);
 }
 
+/* Note the address that the program got for a mapped range: writes through it are recorded as memcpy. */
 static void map_buffer(struct gls_exec *x, struct gls_buffer *b, const struct call *c, uint64_t offset, uint64_t n)
 {
 	uint64_t address = (uint64_t)gls_value_int(&c->ret);
@@ -216,7 +223,10 @@ GLS_HANDLER(glMapBufferRange, CLIENT)
 
 GLS_HANDLER(glUnmapBuffer, CLIENT) { unmap_buffer(x, bound_buffer(x, st, arg_u(c, 0))); }
 
-/* Data that the program wrote into a mapped buffer, as recorders store it. */
+/*
+ * Not a GL command: apitrace's record of bytes that the program stored through a pointer. They are written if the
+ * address is in a mapped buffer.
+ */
 GLS_HANDLER(memcpy, WINDOW)
 {
 	uint64_t to = (uint64_t)arg_i(c, 0);
