@@ -1,7 +1,7 @@
 /*
  * Runs inside the traced program. Overrides dlsym as well, so that a program that looks up GL finds the recorder's
- * entry points. Lookups of the next definition (RTLD_NEXT) are unchanged: libraries that wrap GL themselves make them,
- * and we are loaded before all of these.
+ * entry points. Lookups with RTLD_NEXT are passed on unchanged: they come from libraries that wrap GL themselves and
+ * ask for the definition after their own. The recorder is loaded before them, so it is never that definition.
  */
 #include <dlfcn.h>
 #include <string.h>
@@ -9,7 +9,7 @@
 #include "capture/gl/resolve.h"
 #include "thunks.h"
 
-/* Written out, because a sanitizer replaces functions of the C library. */
+/* Not strncmp: sanitizers intercept it, and they call dlsym before they are ready. */
 __attribute__((RESOLVE_BEFORE_ALL)) static int begins_with(const char *name, const char *prefix)
 {
 	while (*prefix && *name == *prefix) {
@@ -24,8 +24,10 @@ __attribute__((RESOLVE_BEFORE_ALL)) static int is_gl_name(const char *name)
 	return begins_with(name, "gl") || begins_with(name, "egl") || begins_with(name, "OSMesa");
 }
 
-/* 1 if an address is in a GL library, 2 if it is in ours. */
-static int whose(const void *address)
+enum owner { OWNER_OTHER, OWNER_GL, OWNER_RECORDER };
+
+/* The library that contains an address. */
+static enum owner owner_of(const void *address)
 {
 	static const char *const names[] = { "libGL.so", "libGLX", "libOpenGL.so", "libEGL", "libGLES", "libOSMesa",
 		                             "libGLdispatch" };
@@ -33,18 +35,21 @@ static int whose(const void *address)
 	const char *base;
 
 	if (!dladdr(address, &info) || !info.dli_fname)
-		return 0;
-	if (dladdr((const void *)whose, &own) && own.dli_fbase == info.dli_fbase)
-		return 2;
+		return OWNER_OTHER;
+	if (dladdr((const void *)owner_of, &own) && own.dli_fbase == info.dli_fbase)
+		return OWNER_RECORDER;
 	base = strrchr(info.dli_fname, '/');
 	base = base ? base + 1 : info.dli_fname;
 	for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); i++)
 		if (strncmp(base, names[i], strlen(names[i])) == 0)
-			return 1;
-	return 0;
+			return OWNER_GL;
+	return OWNER_OTHER;
 }
 
-/* dlsym's result for a GL name on any handle but RTLD_NEXT. */
+/*
+ * dlsym's result for a name that begins like GL's, on any handle but RTLD_NEXT. Any library may have such names, so
+ * only functions of GL libraries are replaced.
+ */
 static void *look_up_gl(void *handle, const char *name)
 {
 	void *found = resolve_real_dlsym(handle, name);
@@ -52,10 +57,10 @@ static void *look_up_gl(void *handle, const char *name)
 
 	if (!found)
 		return NULL;
-	switch (whose(found)) {
-	case 1:
+	switch (owner_of(found)) {
+	case OWNER_GL:
 		return resolve_substitute(entry_points, name, found);
-	case 2: /* one of ours: returned only if the real GL has the function as well */
+	case OWNER_RECORDER: /* found first, but returned only if the real GL has the function as well */
 		command = resolve_number(name);
 		return command == N_COMMANDS || resolve_exists(command) ? found : NULL;
 	default:
@@ -64,10 +69,10 @@ static void *look_up_gl(void *handle, const char *name)
 }
 
 /*
- * The real dlsym is called by a jump, so that it sees our caller instead of us: with RTLD_NEXT the result depends on
- * the caller. The optimizer makes such jumps from -O2 on, which is requested here whatever the other flags are.
+ * The last call of the real dlsym must be a tail call, so that dlsym sees our caller instead of us: with RTLD_NEXT the
+ * result depends on the caller. GCC makes tail calls from -O2 on, so this function requests that level.
  */
-#ifndef __clang__ /* which makes such jumps without being asked, except at -O0 */
+#ifndef __clang__ /* makes tail calls at every level but -O0 */
 __attribute__((optimize("O2")))
 #endif
 __attribute__((visibility("default"), RESOLVE_BEFORE_ALL)) void *dlsym(void *restrict handle, const char *restrict name)
