@@ -31,14 +31,14 @@ static void write_mesh(FILE *out, const struct scene_mesh *m)
 static void write_texture(FILE *out, const struct scene *s, const struct scene_unit *u)
 {
 	const struct scene_texture *t = s->textures[u->texture];
-	char target[TOKEN_NAME_BYTES], format[TOKEN_NAME_BYTES], mode[TOKEN_NAME_BYTES], made[TOKEN_NAME_BYTES];
+	char target[TOKEN_NAME_BYTES], format[TOKEN_NAME_BYTES], mode[TOKEN_NAME_BYTES], gen_mode[TOKEN_NAME_BYTES];
 	char hash[33];
 
 	hash_text(t->hash, hash);
 	fprintf(out, "texture %s: unit %u, %u x %u, %s %s, %s", hash, u->unit, t->width, t->height,
 	        token_name(t->target, target), token_name(t->base_format, format), token_name(u->env_mode, mode));
 	if (u->gen_mode[0])
-		fprintf(out, ", coordinates by %s", token_name(u->gen_mode[0], made));
+		fprintf(out, ", coordinates by %s", token_name(u->gen_mode[0], gen_mode));
 	fputc('\n', out);
 }
 
@@ -84,20 +84,20 @@ static void write_state(FILE *out, const struct scene_material *m)
 	fprintf(out, "%s%s\n", m->depth_test ? "" : ", no depth test", m->fog ? ", in fog" : "");
 }
 
-void scene_describe(FILE *out, const struct scene *s, uint32_t instance, const char *before)
+void scene_describe(FILE *out, const struct scene *s, uint32_t instance, const char *prefix)
 {
 	const struct scene_instance *in = &s->instances[instance];
 	const struct scene_material *m = &s->materials[in->material];
 
-	fputs(before, out);
+	fputs(prefix, out);
 	write_draw(out, &s->draws[in->draw], in->draw);
-	fputs(before, out);
+	fputs(prefix, out);
 	write_mesh(out, s->meshes[in->mesh]);
 	for (uint32_t i = 0; i < m->unit_count; i++) {
-		fputs(before, out);
+		fputs(prefix, out);
 		write_texture(out, s, &s->units[m->unit_first + i]);
 	}
-	fputs(before, out);
+	fputs(prefix, out);
 	write_lighting(out, m);
 	write_surface(out, &m->surface);
 	write_state(out, m);

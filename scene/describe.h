@@ -1,4 +1,4 @@
-/* Describes one surface of a frame in text. */
+/* Describes one surface of a frame in text, for people who write rules for it. */
 #pragma once
 
 #include <stdio.h>
@@ -7,6 +7,6 @@
 
 /**
  * Write an instance's draw, call, mesh, textures and material, a line each.
- * @param before  prefix of each line
+ * @param prefix  starts each line: "# " or ""
  */
-void scene_describe(FILE *out, const struct scene *scene, uint32_t instance, const char *before);
+void scene_describe(FILE *out, const struct scene *scene, uint32_t instance, const char *prefix);
