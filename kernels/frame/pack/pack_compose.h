@@ -56,7 +56,7 @@ static inline struct pack_planes pack_planes_of(const struct compose_request *r,
 WIDE_VECTORS static inline ushort16 pack_half(packf x)
 {
 #if defined(PACK_HALF16) || defined(PACK_HALF8)
-	/* A single kind of NaN. */
+	/* Give all NaNs the same fraction, as compose_half does. */
 	const packf value = select(x, as_float16((as_uint16(x) & 0x80000000u) | 0x7fc00000u), isnan(x));
 #endif
 #ifdef PACK_HALF16
@@ -251,8 +251,10 @@ WIDE_VECTORS static inline void pack_encode_row(const struct pack_pixels *p, con
 }
 
 /*
- * All planes. is_gl: no effect changes any of them, and the colours after p->gl are not set, as they would be the same
- * numbers last: of the row before, or not known
+ * Compose a row's pixels into all planes.
+ *
+ * is_gl  1: no effect changes any pixel; the colours after p->gl are not set, as they would be the same numbers
+ * last   the colours encoded for the row before, or empty; in and out
  */
 WIDE_VECTORS static inline void pack_compose(const struct pack_pixels *p, int is_gl, const struct pack_planes *to,
                                              struct pack_encoded *last)

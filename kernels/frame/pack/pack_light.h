@@ -1,6 +1,8 @@
 /*
- * Lights sixteen points of one material at the points themselves instead of interpolating between lit vertices:
- * point_lit_here for packs, using the same text (light_lanes.h). OpenCL C only.
+ * Lights sixteen points of one material per point (Phong 1975) instead of interpolating between lit vertices. This is
+ * point_lit_here for packs, from the same text (light_lanes.h). OpenCL C only.
+ *
+ * Each function takes a set of lanes, a bit for each.
  */
 #pragma once
 
@@ -14,7 +16,10 @@
 
 /* --- Colours ----------------------------------------------------------------------------------------------------- */
 
-/* The current colours (glColor) at the vertices of some lanes; undefined in the others. */
+/*
+ * The current colours (glColor) at the three vertices of each lane's triangle. Lanes outside the set are undefined:
+ * pack_load_triangles gave them the vertices of the first lane in it, so they use its geometry.
+ */
 static inline void pack_vertex_colors(const struct tables *t, const struct pack_list *list, const struct pack *p,
                                       uint lanes, struct vec4_16 *v)
 {
@@ -27,7 +32,7 @@ static inline void pack_vertex_colors(const struct tables *t, const struct pack_
 	}
 }
 
-/* point_current_color for all lanes. */
+/* point_current_color for all lanes. Under flat shading, the last vertex gives the colour. */
 static inline struct vec4_16 pack_current_color(const struct tables *t, const struct pack_list *list,
                                                 const struct pack *p, uint lanes)
 {
@@ -48,7 +53,10 @@ static inline struct vec4_16 pack_matte_color(const struct tables *t, const stru
 
 /* --- Points ------------------------------------------------------------------------------------------------------ */
 
-/* The visibility of a slot's light in some lanes, as in stage_seen. */
+/*
+ * The share of the light in a slot that reaches each lane, as in stage_seen: 1 if no rays were sent to it, and in
+ * lanes outside the set.
+ */
 static inline struct vec3_16 pack_seen(const struct shade_arguments *a, const struct pack_list *list, uint lanes,
                                        uint slot)
 {
@@ -68,8 +76,8 @@ static inline struct vec3_16 pack_seen(const struct shade_arguments *a, const st
 }
 
 /*
- * point_lit_here, for surfaces that rules relight (scene_surface.relit). a: tables, and the lights' visibility if
- * n_slots is not 0
+ * point_lit_here for all lanes, on surfaces that rules relight (scene_surface.relit).
+ * @param a  its tables are used; if n_slots is not 0, also the visibility of the lights
  */
 static inline void pack_lit_here(const struct shade_arguments *a, const struct pack_list *list, const struct pack *p,
                                  const struct pack_surface *s, uint lanes, struct lit_16 *out)

@@ -78,7 +78,7 @@ WIDE_VECTORS static inline struct vec3_16 pack_vertex_normals(const struct table
 	return v3_normalize(v3_add(v3_add(v[0], v[1]), v[2]));
 }
 
-/* The same on the side of n; n in lanes that have none. */
+/* pack_vertex_normals, turned to the side of n; n in lanes whose interpolated normal is 0. */
 WIDE_VECTORS static inline struct vec3_16 pack_smooth_normal(const struct tables *t, const struct pack *p,
                                                              struct vec3_16 n)
 {
