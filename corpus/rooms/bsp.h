@@ -14,8 +14,8 @@ struct bsp_node {
 
 struct bsp_leaf {
 	int solid;
-	struct box box;   /* box of the level's part inside it */
-	unsigned *faces;  /* owned */
+	struct box box;   /* bounds of the parts of walls in it */
+	unsigned *faces;  /* owned: numbers of the walls that bound it; none if solid */
 	size_t n_faces;
 };
 
@@ -26,6 +26,7 @@ struct bsp {
 	size_t n_leaves;
 };
 
+/** Build the tree of a mesh's walls. bsp: all zero */
 void bsp_build(struct bsp *bsp, const struct mesh *mesh);
 
 /** The leaf that contains a point. */

@@ -162,6 +162,7 @@ static int meets_rim(const struct mesh *mesh, const struct winding *wall, const 
 	return 0;
 }
 
+/* Cut the walls that meet a portal's rim in two, along its plane. portal: the number of its face */
 static void cut_walls(struct mesh *mesh, size_t portal)
 {
 	size_t n = mesh->n_faces;

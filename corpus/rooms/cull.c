@@ -6,10 +6,11 @@
 
 const char *const culling_names[N_CULLINGS] = { "none", "frustum", "portal", "bsp", "octree" };
 
-enum { MAX_PORTALS_AWAY = 24 };
+enum { MAX_PORTALS_AWAY = 24 }; /* most portals between the eye and a zone */
 
 /* --- Frusta ------------------------------------------------------------------------------------------------------ */
 
+/* The plane through the eye and two directions; its front is on the side of a x b. */
 static struct plane plane_through(struct vec eye, struct vec a, struct vec b)
 {
 	struct vec n = vec_unit(vec_cross(a, b));
@@ -56,6 +57,7 @@ static struct winding clip_to_frustum(const struct mesh *mesh, const struct face
 	return w;
 }
 
+/* Mark a wall as visible if any of it is inside the frustum. */
 static void show(const struct world *world, unsigned face, const struct frustum *f, unsigned char *visible)
 {
 	if (world->mesh.faces[face].portal == NO_PORTAL && !visible[face])
@@ -121,7 +123,7 @@ static const struct face *back_of(const struct mesh *mesh, const struct face *po
 	return NULL;
 }
 
-/* Mark the faces of a zone, and of the zones visible through its portals. */
+/* Mark the visible faces of a zone, and of the zones behind its portals. away: portals between the eye and the zone */
 static void cull_zone(const struct world *world, struct vec eye, unsigned zone, const struct frustum *f, int away,
                       unsigned char *visible)
 {

@@ -30,6 +30,7 @@ struct world {
 	struct octree octree;
 };
 
+/** The space that a view shows, without near and far planes. */
 struct frustum frustum_of(const struct view *view);
 
 /**

@@ -10,9 +10,15 @@
 
 /* --- Points ------------------------------------------------------------------------------------------------------ */
 
+/*
+ * Points are found by their grid cell, CELL wide, in a hash table with linear probing (mesh->cells). A point within
+ * WELD of a place may lie in another cell, but then that cell contains a corner of the cube, 2 WELD wide, around the
+ * place.
+ */
 #define CELL (16 * WELD)
 
-static size_t cell_of(const struct mesh *mesh, double x, double y, double z)
+/* The slot of the table where a search for the points of a place's cell begins. */
+static size_t first_slot(const struct mesh *mesh, double x, double y, double z)
 {
 	uint64_t h = (uint64_t)(int64_t)floor(x / CELL) * 0x9E3779B97F4A7C15u;
 
@@ -21,17 +27,19 @@ static size_t cell_of(const struct mesh *mesh, double x, double y, double z)
 	return (size_t)(h ^ (h >> 32)) & (mesh->n_cells - 1);
 }
 
-static void insert_cell(struct mesh *mesh, unsigned point)
+/* The table must have room. */
+static void insert_point(struct mesh *mesh, unsigned point)
 {
 	struct vec p = mesh->points[point];
-	size_t i = cell_of(mesh, p.x, p.y, p.z);
+	size_t i = first_slot(mesh, p.x, p.y, p.z);
 
 	while (mesh->cells[i])
 		i = (i + 1) & (mesh->n_cells - 1);
 	mesh->cells[i] = point + 1;
 }
 
-static void grow_cells(struct mesh *mesh)
+/* Make room for another point: at most half of the slots are in use. */
+static void grow_table(struct mesh *mesh)
 {
 	if (2 * mesh->n_points < mesh->n_cells)
 		return;
@@ -41,23 +49,23 @@ static void grow_cells(struct mesh *mesh)
 	if (!mesh->cells)
 		exit(1);
 	for (unsigned i = 0; i < mesh->n_points; i++)
-		insert_cell(mesh, i);
+		insert_point(mesh, i);
 }
 
-/* Find or create the point at a place. It may be stored in any cell near the place. */
+/* The point at a place, created if there is none within WELD. */
 static unsigned find_point(struct mesh *mesh, struct vec p)
 {
-	grow_cells(mesh);
-	for (int near = 0; near < 8; near++) {
-		size_t i = cell_of(mesh, p.x + (near & 1 ? WELD : -WELD), p.y + (near & 2 ? WELD : -WELD),
-		                   p.z + (near & 4 ? WELD : -WELD));
+	grow_table(mesh);
+	for (int corner = 0; corner < 8; corner++) {
+		size_t i = first_slot(mesh, p.x + (corner & 1 ? WELD : -WELD), p.y + (corner & 2 ? WELD : -WELD),
+		                      p.z + (corner & 4 ? WELD : -WELD));
 
 		for (; mesh->cells[i]; i = (i + 1) & (mesh->n_cells - 1))
 			if (vec_length(vec_sub(mesh->points[mesh->cells[i] - 1], p)) < WELD)
 				return mesh->cells[i] - 1;
 	}
 	ARRAY_PUSH(mesh->points, mesh->n_points, p);
-	insert_cell(mesh, (unsigned)mesh->n_points - 1);
+	insert_point(mesh, (unsigned)mesh->n_points - 1);
 	return (unsigned)mesh->n_points - 1;
 }
 
@@ -104,7 +112,7 @@ struct winding mesh_winding(const struct mesh *mesh, const struct face *face)
 
 /* --- Merging ----------------------------------------------------------------------------------------------------- */
 
-/* Turn at a corner, seen from the front: positive to the left, 0 straight. */
+/* Sine of the turn at a corner, seen from the front: positive to the left, 0 straight on. */
 static double turn_at(const struct mesh *mesh, const struct face *face, unsigned i)
 {
 	struct vec a = mesh->points[face->v[(i + face->n - 1) % face->n]], b = mesh->points[face->v[i]];
@@ -123,8 +131,8 @@ static void drop_straight_corners(const struct mesh *mesh, struct face *face)
 }
 
 /*
- * Join two polygons along a shared edge, which runs from a's corner i and in reverse from b's corner k. Fails if the
- * result is not convex. b is left without corners.
+ * Join two polygons along a shared edge, which runs from a's corner i, and in reverse from b's corner k, to the next.
+ * @return 1: joined in a, and b has no corners left; 0: the result would not be convex, and nothing has changed
  */
 static int join_faces(const struct mesh *mesh, struct face *a, unsigned i, struct face *b, unsigned k)
 {
@@ -148,13 +156,14 @@ static int join_faces(const struct mesh *mesh, struct face *a, unsigned i, struc
 	return 1;
 }
 
+/* 1 if two faces are alike and in one plane; they need not touch. */
 static int can_join(const struct face *a, const struct face *b)
 {
 	return b->n && a->texture == b->texture && a->portal == b->portal && vec_dot(a->plane.n, b->plane.n) > 1 - 1e-9 &&
 	       fabs(a->plane.d - b->plane.d) < WELD;
 }
 
-/* Join a face with a later neighbour. @return 1 if it grew */
+/* Join a face with one neighbour. @return 1 if there was one to join */
 static int grow_face(struct mesh *mesh, size_t which)
 {
 	struct face *a = &mesh->faces[which];
@@ -206,24 +215,24 @@ static int point_between(const struct mesh *mesh, unsigned from, unsigned to, un
 /* Drop points that belong to no face. */
 static void drop_unused_points(struct mesh *mesh)
 {
-	unsigned *place = calloc(mesh->n_points + 1, sizeof(*place));
+	unsigned *number = calloc(mesh->n_points + 1, sizeof(*number)); /* 1: the point is used; then its new number */
 	unsigned n = 0;
 
-	if (!place)
+	if (!number)
 		exit(1);
 	for (size_t i = 0; i < mesh->n_faces; i++)
 		for (unsigned k = 0; k < mesh->faces[i].n; k++)
-			place[mesh->faces[i].v[k]] = 1;
+			number[mesh->faces[i].v[k]] = 1;
 	for (size_t i = 0; i < mesh->n_points; i++)
-		if (place[i]) {
+		if (number[i]) {
 			mesh->points[n] = mesh->points[i];
-			place[i] = n++;
+			number[i] = n++;
 		}
 	for (size_t i = 0; i < mesh->n_faces; i++)
 		for (unsigned k = 0; k < mesh->faces[i].n; k++)
-			mesh->faces[i].v[k] = place[mesh->faces[i].v[k]];
+			mesh->faces[i].v[k] = number[mesh->faces[i].v[k]];
 	mesh->n_points = n;
-	free(place);
+	free(number);
 	free(mesh->cells);
 	mesh->cells = NULL;
 	mesh->n_cells = 0; /* no point is looked up after this */
@@ -240,6 +249,7 @@ void mesh_repair(struct mesh *mesh)
 
 			if (!point_between(mesh, face->v[k], face->v[(k + 1) % face->n], &between))
 				continue;
+			/* The next k tests the rest of this edge. */
 			face->v = realloc(face->v, (face->n + 1) * sizeof(*face->v));
 			if (!face->v)
 				exit(1);

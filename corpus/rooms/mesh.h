@@ -1,7 +1,8 @@
 /*
- * The surface of a level: convex polygons on shared points, facing empty space.
+ * The surface of a level: convex polygons on shared points, facing empty space. Lengths are metres.
  *
- * Built by these steps, in order: csg_build, mesh_merge, portals_cut, mesh_repair; then zones_find.
+ * Built by these steps, in order: csg_build, mesh_merge, portals_cut, mesh_repair; then zones_find. Running out of
+ * memory ends the program.
  */
 #pragma once
 
@@ -15,12 +16,12 @@
 enum { NO_PORTAL = -1 };
 
 struct face {
-	unsigned *v; /* owned: points, counter-clockwise from the front */
+	unsigned *v; /* owned: numbers of its points, counter-clockwise seen from the front */
 	unsigned n;
 	struct plane plane;
 	int texture;
-	int portal;    /* its number; NO_PORTAL: a wall. A portal has two faces, one for each side. */
-	unsigned zone; /* in front of it */
+	int portal;    /* number of the portal that it belongs to; NO_PORTAL: a wall. A portal has a face for each side */
+	unsigned zone; /* number of the zone in front of it, set by zones_find */
 };
 
 struct mesh {
@@ -28,8 +29,8 @@ struct mesh {
 	size_t n_points;
 	struct face *faces;
 	size_t n_faces;
-	unsigned *cells; /* hash table from places to points, as n + 1; 0: empty */
-	size_t n_cells;
+	unsigned *cells; /* hash table from places to points: 1 + a point's number; 0: an empty slot */
+	size_t n_cells;  /* its slots, a power of two; 0: no table yet, or no longer */
 };
 
 /** Add a face. Its corners are welded to existing points; a face that collapses is dropped. */
@@ -41,12 +42,16 @@ void mesh_sweep(struct mesh *mesh);
 /** Join neighbours in one plane with one texture if the resulting polygon is convex. */
 void mesh_merge(struct mesh *mesh);
 
-/** Insert points that lie on an edge between its ends into the polygon, so that no T-junction is left. */
+/**
+ * Drop unused points. Then insert points that lie on an edge, between its ends, into the polygon, so that no T-junction
+ * is left. No face can be added afterwards.
+ */
 void mesh_repair(struct mesh *mesh);
 
-/** Number of points on edges between their ends. */
+/** Number of edges with a point between their ends. */
 size_t mesh_count_t_junctions(const struct mesh *mesh);
 
+/** A face as a polygon with points of its own. */
 struct winding mesh_winding(const struct mesh *mesh, const struct face *face);
 
 void mesh_free(struct mesh *mesh);

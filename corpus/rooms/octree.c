@@ -5,6 +5,7 @@
 
 #include "array.h"
 
+/* A node is divided unless it is MAX_DEPTH levels below the root or lists at most FEW_FACES faces. */
 enum { MAX_DEPTH = 5, FEW_FACES = 12 };
 
 static struct box octant(struct box box, int which)
