@@ -1,14 +1,15 @@
 #include "tracer/device/cl_launch.h"
 
-#define PART_NS 1e8
+#define PART_NS 1e8                   /* time that a part of a divided launch should take */
 #define FIRST_ITEMS ((size_t)1 << 14) /* work items in the first launch of a kernel that is not measured yet */
-#define LEAST_ITEMS ((size_t)1 << 8)
-#define MOST_GROWTH 8
+#define LEAST_ITEMS ((size_t)1 << 8)  /* in the smallest part */
+#define MOST_GROWTH 8                 /* a part is at most this many times as large as the one before */
 
 #define WIDTH ((size_t)65528) /* work items in the narrowest launches: below 65535, PoCL compiles for small ones */
 #define WIDER 8               /* each wider launch is this many times as wide, as are its groups */
 #define MOST_GROUP 4096
 
+/* Release the event of the measured launch, if any. */
 static void forget(struct cl_pace *pace)
 {
 	if (pace->measured)

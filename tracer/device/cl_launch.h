@@ -32,6 +32,6 @@ cl_int cl_launch(cl_command_queue queue, cl_kernel kernel, size_t n_items, size_
  * the first launch of a kernel on a queue, which later ones wait for, is padded with idle work items to the greatest
  * width for its group size. Wider launches have a larger group size.
  * @param group    work items in a work group of the narrowest launches
- * @param widened  launches so far of this kernel on this queue; initially all zero
+ * @param widened  a bit for each width that this kernel has been launched with on this queue; initially 0
  */
 cl_int cl_launch_wide(cl_command_queue queue, cl_kernel kernel, size_t n_items, size_t group, unsigned char *widened);
