@@ -20,7 +20,7 @@
 
 #include "kernels/frame/hook/hook_text.h"
 
-/* --- Asking them ------------------------------------------------------------------------------------------------- */
+/* --- Calling the hook's functions -------------------------------------------------------------------------------- */
 
 static inline struct hook_answer hook_no_answer(void)
 {
@@ -37,7 +37,7 @@ static inline struct vec3 hook_color(const struct hook_answer *a)
 	return v3(a->color[0], a->color[1], a->color[2]);
 }
 
-/* The ray that led to the surface a hook is asked about. */
+/* The ray that a hook is called for: it hit the surface, or met nothing. */
 struct hook_way {
 	struct vec3 origin, direction; /* unit length */
 	float distance;
@@ -64,7 +64,7 @@ static inline struct relume_hit hook_hit_of(const struct hook_place *at, const s
 }
 #endif
 
-/* 1 if a ray ignores a surface. */
+/* Any hit. @return 1: the ray ignores the surface. row: the surface's parameters */
 static inline int hook_ignores(const struct hook_place *at, const struct hook_way *way, GLOBAL const float *row)
 {
 #if defined(__OPENCL_VERSION__) && defined(HOOK_ANY_HIT)
@@ -109,8 +109,10 @@ static inline struct hook_answer hook_ask_miss(const struct hook_way *way, GLOBA
 
 /* --- Ray generation ---------------------------------------------------------------------------------------------- */
 
-/* Replace the program's own ray through a pixel, moved as the view is in this pass, by the hook's. @return 0: there is
- * no ray */
+/*
+ * The first ray of a pixel: the program's camera's, or the hook's in its place. The view of this pass may be shifted
+ * within the pixel (prepare_shift). @return 0: there is no ray
+ */
 static inline int hook_first_ray(const struct hook_ray_arguments *a, uint32_t number, struct vec3 *o, struct vec3 *d)
 {
 	GLOBAL const struct view *view = &a->views[a->view_index];
@@ -291,7 +293,10 @@ static inline void hook_ways_item(const struct hook_ways_arguments *a, uint32_t 
 	a->counts[item] = b.count;
 }
 
-/* The rest of the built-in light, per unit of a surface's own colour. */
+/*
+ * The factor from a surface's own colour to its part of a path's light: the path's weight, times the share that mirror
+ * and glass leave to the surface. A SCENE_NEAR_MIRROR keeps the mirror's share too.
+ */
 static inline struct vec3 hook_share(const struct hook_hit_arguments *a, uint32_t item, const struct point *p,
                                      struct vec3 weight)
 {
@@ -309,6 +314,7 @@ static inline float hook_part(float light, float share)
 	return share > 0.0f ? light / share : 0.0f;
 }
 
+/* The surface's own colour that led to the path's light: light / share, per channel. */
 static inline struct vec3 hook_given(GLOBAL const float *light, struct vec3 share)
 {
 	return v3(hook_part(light[0], share.x), hook_part(light[1], share.y), hook_part(light[2], share.z));
@@ -389,6 +395,7 @@ static inline void hook_walk_item(const struct hook_walk_arguments *a, uint32_t 
 	const struct vec3 d = v3_load(a->rays[item].d);
 	struct hook_way way;
 	struct point p;
+	/* No slots: the visibility is any buffer. */
 	const struct hook_place at = { &a->tables, &p, a->parameters, 0u, 0u, 0u, a->transport, (const struct hook_trees *)0 };
 
 	if (hit.instance == SCENE_NONE)

@@ -6,9 +6,9 @@
  *   hook_intersect  intersection: after the nearest triangle was found
  *   hook_occlude    the same for any hit
  *
- * Code that shades hits only knows triangles, so a small triangle with three vertices of its own represents each hit on
- * a shape. Its slot is that of the ray (tracer/frame/hook/hook_objects.h). A ray tests all objects of its space in
- * turn.
+ * Code that shades hits only knows triangles, so each hit on a shape becomes a small triangle with three vertices of
+ * its own, in a slot that belongs to the ray (tracer/frame/hook/hook_objects.h). A ray tests all objects of its space
+ * in turn; they have no tree.
  */
 #pragma once
 
@@ -29,14 +29,14 @@ static inline void hook_bounds_item(const struct hook_bounds_arguments *a, uint3
 #endif
 }
 
-/* A ray's hit on an object, between the ray's start and `end`. */
+/* A hit that the hook reported. */
 struct hook_found {
-	float t;
+	float t;                 /* distance, in multiples of the ray's direction */
 	struct vec3 normal;      /* object space */
 	struct vec4 coordinates; /* texture coordinates */
 };
 
-/* @return 1: the ray meets the object */
+/* Call the hook's intersection for an object, if the ray meets its box. @return 1: it reported a hit before `end` */
 static inline int hook_try(GLOBAL const struct hook_object *object, GLOBAL const struct ray *ray, float end,
                            GLOBAL const float *row, struct hook_found *found)
 {
@@ -44,7 +44,7 @@ static inline int hook_try(GLOBAL const struct hook_object *object, GLOBAL const
 			  d = hook_turn(object->obj_from_eye, v3_load(ray->d));
 	float enter = ray->t_min, leave = end;
 
-	if (!(ray->t_min <= end) || !hook_meets(object->lower, object->upper, o, d, &enter, &leave))
+	if (!(ray->t_min <= end) || !hook_meets_box(object->lower, object->upper, o, d, &enter, &leave))
 		return 0;
 #if defined(__OPENCL_VERSION__) && defined(HOOK_INTERSECTION)
 	{

@@ -1,31 +1,36 @@
 /*
- * Text that is compiled with a user's hook: structs, requests, and functions that it may call (corpus/hooks/README.md).
- * Except for what the C twins need, nothing here is compiled unless there is a hook.
+ * The structs and functions that a user's hook may use, all named relume_* and documented for its author in
+ * corpus/hooks/README.md. Names that begin with hook_ are the kernels' own. The C twins compile only the part above
+ * __OPENCL_VERSION__, and kernels only compile this file if there is a hook.
  */
 #pragma once
 
 #include "kernels/frame/light/path.h"
 
-/* A hook's requests: bits of hook_answer.what. The same numbers are in the text below. */
+/* Requests of a hook: bits of relume_request.what and of hook_answer.what. */
 #define RELUME_COLOR 1u
 #define RELUME_RAY 2u
 #define RELUME_IGNORE 4u
 #define RELUME_SURFACE 8u
 
-/* Context for functions that a hook may call. */
+/* The surface that a hook is called for, for the functions that the hook may call in turn. */
 struct hook_place {
 	const struct tables *tables;
 	const struct point *point;
-	GLOBAL const float *visibility;
-	uint32_t n_slots, n, item, transport;
+	GLOBAL const float *visibility; /* [n_slots][n][3]: share of each light that arrives, red, green and blue */
+	uint32_t n_slots, n, item;      /* light slots with known visibility; items in a slot; the item of `point` */
+	uint32_t transport;             /* TRANSPORT_* */
 	const struct hook_trees *trees; /* NULL: hooks cannot query the trees here */
 };
 
 /* --- Boxes ------------------------------------------------------------------------------------------------------- */
 
-/* Test whether a ray meets a box between two distances. */
-static inline int hook_meets(GLOBAL const float *lower, GLOBAL const float *upper, struct vec3 o, struct vec3 d,
-                             float *least, float *most)
+/*
+ * Test whether a ray meets a box (the slab test). A box with lower > upper is empty.
+ * least, most: range of distances to test; receive the range inside the box. Distances are multiples of d's length
+ */
+static inline int hook_meets_box(GLOBAL const float *lower, GLOBAL const float *upper, struct vec3 o, struct vec3 d,
+                                 float *least, float *most)
 {
 	const float from[3] = { o.x, o.y, o.z }, along[3] = { d.x, d.y, d.z };
 
@@ -39,26 +44,29 @@ static inline int hook_meets(GLOBAL const float *lower, GLOBAL const float *uppe
 	return lower[0] <= upper[0] && *least <= *most + 1.0e-5f * M_ABS(*most); /* with some slack for rounding */
 }
 
+/* Transform a direction by a matrix of 3 rows of 4, as in struct instance. */
 static inline struct vec3 hook_turn(GLOBAL const float *m, struct vec3 v)
 {
 	return v3(m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
 	          m[8] * v.x + m[9] * v.y + m[10] * v.z);
 }
 
+/* Transform a position by such a matrix. */
 static inline struct vec3 hook_move(GLOBAL const float *m, struct vec3 v)
 {
 	return v3_add(hook_turn(m, v), v3(m[3], m[7], m[11]));
 }
 
-/*
- * Subtrees still to be visited: of the top level, and of the meshes in its leaves. Those that do not fit are not
- * counted.
- */
+/* Size of the stack of nodes to visit. A node that finds it full is skipped, and its boxes are not counted. */
 #define HOOK_STACK 192u
 
-/* Number of box tests of a ray in the binary trees, up to a distance: two per node, in the top level and in meshes. */
+/*
+ * Count the boxes that a ray is tested against in the binary trees, up to a distance. Each visited node has two, in the
+ * top level and in the meshes alike. Distances stay the same in object space, as the direction is not normalized there.
+ */
 static inline uint32_t hook_box_tests(const struct hook_trees *a, struct vec3 from, struct vec3 along, float distance)
 {
+	/* The stack: a node's number, and its tree's instance, or SCENE_NONE for the top level. */
 	uint32_t instance[HOOK_STACK], node[HOOK_STACK], depth = 1u, tests = 0u, inside = SCENE_NONE;
 	struct vec3 o = from, d = along;
 
@@ -78,10 +86,11 @@ static inline uint32_t hook_box_tests(const struct hook_trees *a, struct vec3 fr
 		at = (in == SCENE_NONE ? a->top + a->top_first : a->nodes + a->instances[in].node2_first) + node[depth];
 		tests += 2u;
 		for (uint32_t side = 0u; side < 2u; side++) {
+			/* An inner node has one child. A leaf of the top level has instances, a mesh's leaf has no more boxes. */
 			const uint32_t count = at->count[side], n = !count ? 1u : in == SCENE_NONE ? count : 0u;
 			float least = 0.0f, most = distance;
 
-			if (!hook_meets(at->lo[side], at->hi[side], o, d, &least, &most))
+			if (!hook_meets_box(at->lo[side], at->hi[side], o, d, &least, &most))
 				continue;
 			for (uint32_t i = 0u; i < n && depth < HOOK_STACK; i++, depth++) {
 				instance[depth] = count ? a->instance_list[at->child[side] + i] : in;
@@ -144,8 +153,9 @@ struct relume_crossing {
 	struct relume_object object;
 };
 
+/* Set by the functions below only. For RELUME_SURFACE: texture coordinates, normal, and the distance in weight.x. */
 struct relume_request {
-	uint what;
+	uint what; /* RELUME_*; 0: keep the built-in result */
 	float4 color, direction, weight;
 };
 
@@ -201,6 +211,7 @@ static inline struct relume_request relume_surface(float distance, float4 normal
 	return relume_surface_at(distance, normal, (float4)(0.0f, 0.0f, 0.0f, 1.0f));
 }
 
+/* An empty box: lower > upper. */
 static inline struct relume_box relume_no_box(void)
 {
 	struct relume_box box;
@@ -231,6 +242,7 @@ static inline float4 relume_albedo(const struct relume_hit *hit)
 	return hook_float4(stage_light(at->transport, v3(c.x, c.y, c.z)));
 }
 
+/* Solve eye_from_obj p = position for p by Cramer's rule: x, y, z are the matrix's columns. */
 static inline float4 relume_object_position(const struct relume_hit *hit)
 {
 	GLOBAL const float *m = hit->place->point->geometry->eye_from_obj;
@@ -264,12 +276,13 @@ static inline struct relume_light relume_light(const struct relume_hit *hit, uin
 
 	out.direction = hook_float4(to_light);
 	out.color = hook_float4(stage_light(at->transport, v3_scale(v3_load(light->diffuse), strength)));
+	/* No rays were sent to lights without a slot: they arrive whole. */
 	out.arrives = number < at->n_slots ? hook_float4(v3_load(at->visibility + (number * at->n + at->item) * 3u)) :
 	                                     (float4)(1.0f, 1.0f, 1.0f, 0.0f);
 	return out;
 }
 
-/* The user's functions come after all of this. */
+/* The stages that the user's text defines. It follows the kernels, which call them. */
 #ifdef HOOK_RAY_GENERATION
 struct relume_ray ray_generation(struct relume_pixel pixel, struct relume_parameters parameters);
 #endif
