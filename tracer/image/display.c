@@ -18,11 +18,11 @@
 #define PNG_LEVEL 6
 #define JPEG_QUALITY 95
 
-/* 255 sRGB(y) of every half before dithering, once for linear light and once for display-referred values. */
+/* The code of every half float before dithering, by its bits: as linear light, and as a display-referred value. */
 struct display {
 	float linear[N_HALVES], shown[N_HALVES];
-	float white;  /* white point before exposure */
-	float dither; /* twice the largest amount that it moves a code by */
+	float white;  /* linear light, before exposure, that is shown as white */
+	float dither; /* width of the dither's range, in codes; 0: off */
 };
 
 enum display_kind display_kind_of(const char *path)
@@ -52,6 +52,7 @@ int display_refuse(const char *path)
 
 /* --- The curve --------------------------------------------------------------------------------------------------- */
 
+/* The code of a linear value before dithering: the formula of display.h. */
 static float code_of(const struct display_options *options, float linear)
 {
 	const float white = options->white, m = (white - KNEE) / (1 - KNEE);
@@ -137,6 +138,7 @@ int display_codes(const struct display *display, const struct image *img, const 
 
 /* --- Files ------------------------------------------------------------------------------------------------------- */
 
+/* The picture's description: one line for each attribute it has, "NAME TEXT". */
 static void describe(const struct image *img, char *text, size_t size)
 {
 	static const char *const names[] = { "relume:frame",    "relume:trace",   "relume:program",

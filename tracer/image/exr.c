@@ -36,7 +36,7 @@ static exr_context_initializer_t context_setup(void)
 	return setup;
 }
 
-/* Reason why a call failed. */
+/* Why a call failed, for a message. */
 static const char *reason(exr_result_t rc)
 {
 	return exr_said[0] ? exr_said : exr_get_default_error_message(rc);
@@ -243,7 +243,7 @@ static int read_layout(exr_context_t file, struct image *img, const char *path, 
 	return 0;
 }
 
-/* Convert unsigned integers to floats, which the pipeline does not do. */
+/* Convert unsigned integers to floats in place: OpenEXRCore's pipeline does not. */
 static void floats_from_uints(float *values, size_t n)
 {
 	for (size_t i = 0; i < n; i++) {

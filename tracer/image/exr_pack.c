@@ -47,7 +47,7 @@ struct streams {
 #define FOR_WIDTHS /* vectors are in the architecture's baseline */
 #endif
 
-/* Append pairs of bytes. */
+/* Append 16-bit words: low bytes to the even stream, high bytes to the odd one, each as a difference. */
 FOR_WIDTHS
 static void split(struct streams *s, const uint16_t *restrict in, size_t n)
 {
@@ -108,7 +108,7 @@ static const uint16_t *line_of(const struct exr_plane *p, size_t at, uint32_t wi
 
 /* --- Chunks ------------------------------------------------------------------------------------------------------ */
 
-/* Hash of a chunk that has one value in each channel; 0: the values vary. */
+/* A hash of the values if all pixels of a chunk are equal; 0: they are not. Such chunks repeat, and are packed once. */
 static uint64_t name_constant(const struct exr_rows *r)
 {
 	const size_t at = (size_t)r->first * r->width, n = (size_t)r->count * r->width;

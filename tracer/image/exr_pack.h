@@ -29,7 +29,7 @@ struct exr_packer {
 	size_t size;
 	uint8_t *packed;          /* the packed chunk of the last call */
 	size_t n_packed, packed_size;
-	uint64_t constant;        /* hash of the values if that chunk has one value in each channel; else 0 */
+	uint64_t constant;        /* if all pixels of that chunk are equal, a hash of their values; else 0 */
 };
 
 /**

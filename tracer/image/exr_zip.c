@@ -15,6 +15,7 @@ static int reserve(uint8_t **buffer, size_t *have, size_t size)
 	return *buffer != NULL;
 }
 
+/* Undo exr_pack.h's rearrangement: add up the differences, and interleave both halves. */
 static void sum_and_join(const uint8_t *in, uint8_t *out, size_t n)
 {
 	const size_t half = (n + 1) / 2;
@@ -26,6 +27,7 @@ static void sum_and_join(const uint8_t *in, uint8_t *out, size_t n)
 		out[2 * (i - half) + 1] = sum = (uint8_t)(sum + in[i] - 128);
 }
 
+/* A decompress_fn. Chunks of their raw size are stored uncompressed. */
 static exr_result_t expand_chunk(exr_decode_pipeline_t *decode)
 {
 	struct exr_zip *zip = decode->decoding_user_data;

@@ -22,8 +22,8 @@
 #define MOST_SECONDS 60                 /* most processor time for the largest picture */
 #define MOST_MEMORY ((rlim_t)1 << 33)
 
-/* The server: a process with OpenImageIO loaded and a single thread, which forks once for each picture. -1: not
- * started */
+/* The server: a process with OpenImageIO loaded and a single thread, which forks for each picture. channel is -1 until
+ * it is started. */
 static struct {
 	pthread_mutex_t lock;
 	int channel;
@@ -108,6 +108,7 @@ static int take_request(int channel, char path[PATH_MAX], int *pipe)
 	return 1;
 }
 
+/* The server's loop: read each requested picture in a child. Does not return. */
 static void serve(int channel)
 {
 	char path[PATH_MAX];

@@ -22,6 +22,7 @@ static uint64_t bytes_left(FILE *file, uint64_t file_bytes)
 	return at >= 0 && (uint64_t)at < file_bytes ? file_bytes - (uint64_t)at : 0;
 }
 
+/* Does a part of `length` bytes end within the file, or only a little beyond? */
 static int fits(FILE *file, uint64_t file_bytes, uint64_t length)
 {
 	return length <= bytes_left(file, file_bytes) + LITTLE_BYTES;
@@ -39,7 +40,7 @@ static int png_fits(FILE *file, uint64_t file_bytes)
 	return 1;
 }
 
-/* Read a string up to its NUL and keep its first bytes. @return its length in bytes */
+/* Read a string up to its NUL; `first` receives its first bytes. @return its whole length */
 static size_t take_text(FILE *file, char first[32])
 {
 	size_t n = 0;

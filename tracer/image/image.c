@@ -33,13 +33,14 @@ void image_free(struct image *img)
 	memset(img, 0, sizeof(*img));
 }
 
+/* Report it. @return NULL, for functions that return a plane */
 static void *no_memory(const struct image *img, const char *name)
 {
 	err_report(ERR_SYSTEM, NULL, "out of memory for channel %s of %u x %u pixels", name, img->width, img->height);
 	return NULL;
 }
 
-/* Number of pixels in a plane. */
+/* Number of pixels that a plane has room for: one chunk's if rows are packed as they arrive. At least 1. */
 static size_t pixel_count(const struct image *img)
 {
 	size_t n = (size_t)img->width * (img->packers ? PACK_ROWS : img->height);
@@ -47,7 +48,7 @@ static size_t pixel_count(const struct image *img)
 	return n ? n : 1;
 }
 
-/* Make room for another channel, all zero. The caller counts it once it has a plane. */
+/* Make room for another channel, without a plane. The caller raises n_channels once it has allocated the plane. */
 static struct image_channel *next_channel(struct image *img, const char *name, int full_float)
 {
 	struct image_channel *channel;
@@ -92,7 +93,7 @@ static size_t row_bytes(const struct image *img, size_t i)
 	return img->width * (img->channels[i].halves ? sizeof(uint16_t) : sizeof(float));
 }
 
-/* Copy n rows of `planes`, after the first `skip`, to row `at` of the image's planes. */
+/* Copy rows skip .. skip + n - 1 of the given planes to rows at .. at + n - 1 of the image's own. */
 static void keep_rows(struct image *img, const void *const *planes, uint32_t skip, uint32_t n, uint32_t at)
 {
 	for (size_t i = 0; i < img->n_channels && n; i++) {
@@ -104,29 +105,35 @@ static void keep_rows(struct image *img, const void *const *planes, uint32_t ski
 	}
 }
 
-/* Pack rows in whole chunks, after completing the chunk that earlier rows left unfinished. */
+/*
+ * Pack the next n rows. Between calls, the image's planes hold the rows of the chunk that is not complete yet: rows
+ * img->first .. img->taken - 1, fewer than PACK_ROWS.
+ */
 static int pack_rows(struct image *img, const void *const *planes, uint32_t n)
 {
-	const uint32_t row = img->taken, end = row + n, left = row - img->first, lacks = left ? PACK_ROWS - left : 0;
-	const uint32_t head = lacks < n ? lacks : n;
+	const uint32_t row = img->taken, end = row + n, waiting = row - img->first;
+	const uint32_t missing = waiting ? PACK_ROWS - waiting : 0, head = missing < n ? missing : n;
 	int err = 0;
 
 	if (!img->pack)
 		err = pack_create(img, img->packers, &img->pack);
 	if (err)
 		return err;
-	keep_rows(img, planes, 0, head, left);
+	/* Complete the chunk that waits, from the image's planes. */
+	keep_rows(img, planes, 0, head, waiting);
 	if (head)
 		err = pack_until(img->pack, img, NULL, 0, row + head);
+	/* Pack whole chunks directly from the caller's planes. */
 	if (!err && head < n)
 		err = pack_until(img->pack, img, planes, row, end);
 	if (err)
 		return err;
+	/* Keep the rest; if no chunk became complete, rows that joined a waiting chunk are there already. */
 	/* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): pack_create has set it */
 	if (img->pack->n_packed * PACK_ROWS > img->first) {
 		img->first = img->pack->n_packed * PACK_ROWS;
 		keep_rows(img, planes, img->first - row, img->first < end ? end - img->first : 0, 0);
-	} else if (!left) {
+	} else if (!waiting) {
 		keep_rows(img, planes, 0, n, 0);
 	}
 	return 0;
@@ -141,6 +148,7 @@ int image_take_rows(struct image *img, const void *const *planes, uint32_t n)
 	else
 		keep_rows(img, planes, 0, n, img->taken);
 	img->taken += n;
+	/* Once all rows are packed, the planes are not needed. */
 	for (size_t i = 0; i < img->n_channels && img->packers && img->taken == img->height; i++)
 		free_planes(&img->channels[i]);
 	return err;

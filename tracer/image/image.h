@@ -25,8 +25,8 @@ struct image {
 	uint32_t width, height;
 	/*
 	 * 0: planes hold the whole picture. Otherwise the number of threads that pack rows as they arrive
-	 * (image_take_rows); planes then hold the rows from `first` on, which are too few to be packed. Such an image
-	 * can only be written.
+	 * (image_take_rows); planes then hold only the rows from `first` on, which do not fill a chunk yet. Such an
+	 * image can only be written.
 	 */
 	unsigned packers;
 	uint32_t first, taken; /* taken: number of rows so far, from the top */
@@ -47,8 +47,10 @@ void image_free(struct image *img);
  */
 float *image_add_channel(struct image *img, const char *name, int full_float);
 
-/** Add a channel of half floats, uninitialized. @return its plane, as image_add_channel; do not change it after floats
- * have been requested */
+/**
+ * Add a channel of half floats, uninitialized.
+ * @return its plane, as image_add_channel; do not change it after image_channel or image_values has returned its floats
+ */
 uint16_t *image_add_halves(struct image *img, const char *name);
 
 /**
@@ -61,7 +63,7 @@ int image_take_rows(struct image *img, const void *const *planes, uint32_t n);
 /** The plane of a channel as floats. NULL: no such channel, or out of memory (reported) */
 float *image_channel(const struct image *img, const char *name);
 
-/** The same by the channel's index. */
+/** The same by the channel's index. Halves are converted once, at the first request. */
 float *image_values(const struct image *img, size_t i);
 
 /** Set a text attribute, replacing one of the same name. @return 0 or ERR_SYSTEM (reported) */
@@ -100,7 +102,7 @@ int image_exr_is_dwa(const char *path);
 /** Read a text attribute from the head of an OpenEXR file. @return 1; 0: there is none, or it does not fit in `text` */
 int image_exr_text(const char *path, const char *attribute, char *text, size_t size);
 
-/** sRGB's transfer function (IEC 61966-2-1): display-referred [0,1] to linear light and back; an odd function, also
- * beyond [0,1]. */
+/** sRGB's transfer function (IEC 61966-2-1): display-referred values to linear light and back. The formula also holds
+ * above 1; negative values are mirrored: f(-x) = -f(x). */
 float image_linear_from_display(float display);
 float image_display_from_linear(float linear);

@@ -10,7 +10,7 @@
 
 #define MAX_HELPERS 63
 
-/* State shared by the threads of one call. */
+/* State shared by the threads of one call of pack_until. */
 struct work {
 	struct pack *pack;
 	const struct image *img;
@@ -42,6 +42,7 @@ static void pack_chunk(struct work *w, struct exr_packer *tools, uint32_t number
 		w->failed = 1;
 }
 
+/* Pack chunks until none is left; run by each thread. */
 static void *help(void *arg)
 {
 	struct helper *helper = arg;

@@ -1,6 +1,6 @@
 /*
  * Packs the rows of a picture into chunks of an OpenEXR file (exr_pack.h), on several threads. Rows may arrive in
- * bands, from the top. Packed rows need no plane any more.
+ * bands, from the top. Once a row is packed, its pixels may be freed.
  */
 #pragma once
 

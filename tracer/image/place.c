@@ -21,6 +21,7 @@ static struct span overlap(int64_t first, uint32_t n_data, uint32_t n)
 	                    (struct span){ 0 };
 }
 
+/* Copy the overlap and the attributes into a picture of the display window. @return 0 or ERR_SYSTEM (reported) */
 static int fill(const struct image *img, struct span x, struct span y, struct image *out)
 {
 	for (size_t c = 0; c < img->n_channels; c++) {
