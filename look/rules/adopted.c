@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "look/rules/schema.h"
 
+/* The field of a key, which must exist; the list ends at a NULL key. */
 static const cyaml_schema_field_t *field_of(const cyaml_schema_field_t *fields, const char *key)
 {
 	while (fields->key && strcmp(fields->key, key) != 0)
@@ -17,10 +18,13 @@ static const cyaml_schema_field_t *field_of(const cyaml_schema_field_t *fields, 
 	return fields;
 }
 
-/* Numbers parsed from their text in the file. NULL: out of memory */
+/*
+ * Numbers rounded as a rule file would round them: printed, and parsed again. Then adopted rules and written ones give
+ * the same pictures (findings.h). NULL: out of memory
+ */
 static float *numbers_of(const struct finding_value *v)
 {
-	const unsigned n = v->n ? v->n : 1;
+	const unsigned n = v->n ? v->n : 1; /* 0: a single number, not a list */
 	float *out = malloc(n * sizeof(*out));
 	char text[64];
 
@@ -38,7 +42,7 @@ static void *copy(const void *data, size_t n)
 	return out ? memcpy(out, data, n) : NULL;
 }
 
-/* A copy of a value for rules to point to. NULL: out of memory */
+/* A value as struct rules points to it: allocated, in the type of its key's schema. NULL: out of memory */
 static void *value_of(const struct finding_value *v)
 {
 	char hash[33];
@@ -47,7 +51,9 @@ static void *value_of(const struct finding_value *v)
 	case FINDING_TRUTH: return copy(&(bool){ v->count != 0 }, sizeof(bool));
 	case FINDING_COUNT: return copy(&(uint32_t){ (uint32_t)v->count }, sizeof(uint32_t));
 	case FINDING_NUMBERS: return numbers_of(v);
-	case FINDING_HASH: hash_text(v->hash, hash); return strdup(hash);
+	case FINDING_HASH:
+		hash_text(v->hash, hash);
+		return strdup(hash);
 	case FINDING_WORD: return strdup(v->word);
 	default: return strdup(v->text);
 	}
@@ -62,11 +68,17 @@ static void *member_get(const void *data, const cyaml_schema_field_t *field)
 	return member;
 }
 
+/* Set that pointer. */
 static void member_set(void *data, const cyaml_schema_field_t *field, void *member)
 {
 	memcpy((char *)data + field->data_offset, &member, sizeof(member));
 }
 
+/*
+ * Set one key of a rule, or of its `match`, which is allocated for its first test.
+ * @param fields  the schema of the rule
+ * @return 0 or ERR_SYSTEM (reported)
+ */
 static int set_value(void *rule, const cyaml_schema_field_t *fields, const struct finding_value *v)
 {
 	const cyaml_schema_field_t *field;
@@ -85,7 +97,7 @@ static int set_value(void *rule, const cyaml_schema_field_t *fields, const struc
 	return member_get(rule, field) ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 }
 
-/* Fill a list of rules, or the rule of a key that has only one. */
+/* Convert the findings of one list: to an array of rules, or to a single rule if the key takes no list (sky, gloss). */
 static int fill_list(struct rules *rules, const struct findings *findings, enum findings_list list)
 {
 	const cyaml_schema_field_t *field = field_of(rules_schema.mapping.fields, findings_key(list)), *fields;
@@ -118,7 +130,7 @@ static int fill_list(struct rules *rules, const struct findings *findings, enum 
 
 int adopted_create(const struct findings *findings, struct rules **out)
 {
-	const struct finding_value replace = FINDING_IS("replace", 1);
+	const struct finding_value replace = FINDING_IS("replace", 1); /* as findings_write does */
 	struct rules *rules = calloc(1, sizeof(*rules));
 	int err = rules ? set_value(rules, rules_schema.mapping.fields, &replace) :
 	                  err_report(ERR_SYSTEM, NULL, "out of memory");

@@ -22,7 +22,7 @@ enum finding_type {
 	FINDING_TRUTH, FINDING_COUNT, FINDING_NUMBERS, FINDING_HASH, FINDING_WORD, FINDING_TEXT, FINDING_QUOTED
 };
 
-/** The key of a list. */
+/** The key of a list in the file. */
 const char *findings_key(enum findings_list list);
 
 /** A key of a rule and its value. */
@@ -33,7 +33,7 @@ struct finding_value {
 	uint64_t count; /* FINDING_COUNT; FINDING_TRUTH: 0 or 1 */
 	uint64_t hash[2];
 	double numbers[FINDING_MOST_NUMBERS];
-	unsigned n;        /* how many numbers are a list; 0: a single one */
+	unsigned n;        /* length of the list of numbers; 0: a single number, which is not a list */
 	int digits;        /* significant digits of each number; negative: digits after the point, zeros included */
 	int is_place;      /* 1: the fourth number is 1 for a position or 0 for a direction, and has no decimals */
 	const char *word;  /* must outlive the findings */
@@ -66,7 +66,7 @@ struct findings_summary {
 	size_t frames;        /* that were studied */
 	uint64_t first, last; /* their numbers */
 	size_t known, moved;  /* frames whose camera is known, and where it moved */
-	double percent;       /* how much of what is seen again, by size, stands still; mean of the known frames */
+	double percent;       /* share, by size, of the meshes seen again that stand still; mean of the known frames */
 	size_t still, moving, carried, once; /* numbers of meshes; carried: with the viewer; once: in one frame only */
 	size_t deforming;     /* number of shapes */
 };
@@ -76,7 +76,7 @@ struct findings {
 	struct findings_summary summary;
 	struct finding *list;
 	size_t n, room;
-	struct finding lost; /* receives the values of findings that did not fit in memory */
+	struct finding lost; /* findings_add returns it if memory is short; its values are dropped */
 	int err;             /* 0 or ERR_SYSTEM (reported) */
 };
 
@@ -88,7 +88,7 @@ struct findings {
 struct finding *findings_add(struct findings *findings, enum findings_list list, const char *role, ...)
 	__attribute__((format(printf, 3, 4)));
 
-/** Add values. They are copied, but a text becomes the finding's. */
+/** Add values. They are copied, except that the finding takes ownership of each `text`. */
 void finding_set(struct finding *finding, const struct finding_value *values, size_t n);
 #define FINDING_SET(finding, ...) \
 	finding_set(finding, (const struct finding_value[]){ __VA_ARGS__ }, \
@@ -107,7 +107,7 @@ void finding_explain(struct finding *finding, double confidence, const char *why
 /** Add `why` alone. */
 void finding_say(struct finding *finding, const char *why, ...) __attribute__((format(printf, 2, 3)));
 
-/** Check for failures, after the last finding. @return 0 or ERR_SYSTEM (reported): the findings must not be used */
+/** Call after the last finding. @return 0 or ERR_SYSTEM (reported): memory ran out, so do not use the findings */
 int findings_check(const struct findings *findings);
 
 /** The text of a number in the file. @param i  index in value->numbers */

@@ -13,6 +13,7 @@
 
 enum { MOST_LINES = 20 };
 
+/* Draws and frames that a rule has matched. */
 struct count {
 	const char *file; /* one of `names` */
 	uint32_t rule;    /* in its file, from 1 */
@@ -22,9 +23,9 @@ struct count {
 struct matched {
 	struct count *counts;
 	size_t n;
-	char **names;
+	char **names; /* [n_names] of the rule files */
 	size_t n_names;
-	_Atomic uint64_t frames;
+	_Atomic uint64_t frames; /* frames of the run so far */
 };
 
 int matched_create(const char *name, uint32_t n_rules, struct matched **out)
@@ -90,7 +91,7 @@ void matched_add(struct matched *m, const uint32_t *draws)
 	}
 }
 
-/* 1 if a rule replaces a trick, but the file keeps tricks. */
+/* 1 if a rule replaces a trick, but the rules say `replace: no`. */
 static int is_off(const struct rules *rules, const struct surface_rule *r)
 {
 	return rules->replace && !*rules->replace && (r->left_out || r->solid || r->shadow_unit);

@@ -1,5 +1,4 @@
-/* Counts the draws that rules match over all frames of a run. A mistyped hash matches nothing, and has no effect that
- * would show. */
+/* Counts the draws that rules match over all frames of a run, since a rule with a mistyped hash would fail silently. */
 #pragma once
 
 #include <stdint.h>

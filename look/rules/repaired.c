@@ -28,9 +28,9 @@ struct entry {
 struct repaired {
 	pthread_mutex_t lock;
 	struct entry *entries;
-	size_t n, room, bytes;
-	unsigned n_leaking;
-	int is_full;
+	size_t n, room, bytes; /* bytes: an estimate for all entries */
+	unsigned n_leaking;    /* meshes that still leak light after their repair */
+	int is_full;           /* 1: MOST_BYTES are reached, and that was reported */
 };
 
 int repaired_create(struct repaired **store)
@@ -72,7 +72,7 @@ int repaired_wants(const struct repair_rule *rule, const struct scene *scene, co
 	       m->polygon_mode_back == GL_FILL && !(m->surface.hidden & SCENE_LEFT_OUT);
 }
 
-/* Warn about the first few meshes. */
+/* Warn if light still leaks through a repaired mesh, for the first few of these. */
 static void warn(struct repaired *s, const struct scene_mesh *mesh, const struct repair_found *found)
 {
 	const float *at = found->leak_at;

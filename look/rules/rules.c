@@ -18,6 +18,7 @@
 
 /* --- Checks beyond libcyaml's ------------------------------------------------------------------------------------ */
 
+/* @param value  NULL: the key is missing, which is fine. @param rule  from 0 */
 static int check_number(const char *path, const char *list, uint32_t rule, const char *key, const float *value,
                         float least, float most)
 {

@@ -8,7 +8,7 @@
 #include "base/mat4.h"
 #include "look/rules/rules.h"
 
-enum { MAX_VOTES = 256 };
+enum { MAX_VOTES = 256 }; /* one for each time that a frame draws an anchor */
 
 int world_hash_begins(const uint64_t hash[2], const char *text)
 {
@@ -33,7 +33,7 @@ static int agree(const float a[16], const float b[16])
 
 int world_find(const struct rules *rules, const struct scene *scene, float eye_from_world[16], uint32_t *part)
 {
-	float votes[MAX_VOTES][16];
+	float votes[MAX_VOTES][16]; /* eye_from_world by each anchor */
 	uint32_t parts[MAX_VOTES];
 	int n = 0, best = 0, most = 0;
 

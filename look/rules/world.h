@@ -12,7 +12,7 @@ int world_hash_begins(const uint64_t hash[2], const char *text);
 
 /**
  * Find the matrix from the world to eye space. Each anchor in the frame gives one, and the majority decides.
- * @param part  receives the recording's part that the world belongs to; or NULL
- * @return 1; 0: the frame draws no anchor, or there is none
+ * @param part  NULL, or receives the part of the recording that the world belongs to (rules.h: `part`)
+ * @return 1; 0: the rules have no anchor, or the frame draws none; then nothing is set
  */
 int world_find(const struct rules *rules, const struct scene *scene, float eye_from_world[16], uint32_t *part);
