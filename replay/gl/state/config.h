@@ -1,4 +1,4 @@
-/* Visuals and frame buffer configurations (GLX 1.4 sec. 3.3.3, EGL 1.5 sec. 3.4). */
+/* The bits of visuals and frame buffer configurations, as recordings of other recorders reveal them. */
 #pragma once
 
 struct gls_exec;
