@@ -1,5 +1,4 @@
-/* Studying a recording: it is replayed without pixels, frame by frame, into look/study; scenes that its rules name
- * are fetched with them. */
+/* Studies a recording (look/study): its frames are replayed without pixels. Also fetches the scenes that rules name. */
 #pragma once
 
 #include "base/frames.h"
@@ -9,7 +8,7 @@ struct replay;
 
 /**
  * Study a recording, and get its rules.
- * @param frames  to study; if there are too many, evenly spread ones of these
+ * @param frames  frames to study; of too many, an evenly spread selection
  * @param look    receives the rules; rules_free
  * @return 0 or ERR_* (reported)
  */

@@ -1,7 +1,7 @@
 /*
- * The moment of the recording that each picture shows: a recorded frame, a turntable's one frame, or, with a rate of
- * their own (--fps), any moment between two frames (look/between/between.h). Time is then the program's clock when it
- * ended frames, or, with --recorded-fps, their number.
+ * The moment of the recording that each picture shows: a recorded frame; for a turntable, always the same frame; or,
+ * with --fps, any moment between two frames (look/between/between.h). A frame's time is then when the program
+ * ended it, or, with --recorded-fps, its number divided by that rate.
  */
 #pragma once
 
@@ -10,20 +10,20 @@
 
 struct moments {
 	double fps;       /* pictures per second; 0: each picture shows a frame and has its number */
-	double shutter;   /* how long it is open, as a share of the time from one picture to the next; 0: an instant */
-	uint64_t first;   /* frame of the recording */
-	uint64_t n;       /* number of frames from there on; no others are used */
-	uint64_t first_ns; /* with fps: when the first ended; 0: not known */
-	double *seconds;  /* with fps, [n]: when frames ended, from 0 on; owned */
-	uint64_t count;   /* with fps: pictures */
+	double shutter;   /* how long it is open, as a share of the time between two pictures; 0: an instant */
+	uint64_t first;   /* first frame of the recording that is used */
+	uint64_t n;       /* number of frames used, from that one on */
+	uint64_t first_ns; /* with fps: when the first frame ended; 0: not known */
+	double *seconds;  /* with fps, [n]: when each frame ended, counted from the first one's end; owned */
+	uint64_t count;   /* with fps: number of pictures */
 };
 
 /**
- * Pictures at a rate of their own.
- * @param m             shutter is there
+ * Set up pictures for --fps.
+ * @param m             shutter is set
  * @param frames        a contiguous range of frames; empty: all
- * @param end           frames that the recording has
- * @param recorded_fps  0: the clock counts
+ * @param end           number of frames in the recording
+ * @param recorded_fps  frames a second of the recording; 0: use the program's clock
  * @return 0; ERR_USAGE (reported): no contiguous range, or too many pictures; ERR_INPUT (reported): the recording has
  *         no clock, or it runs backwards; ERR_SYSTEM (reported)
  */
@@ -33,8 +33,9 @@ void moments_free(struct moments *m);
 
 /**
  * The moment of a picture, or one before or after it.
- * @param after  share of the time from a picture to the next, from then on
- * @param at     [0,1), how far after *frame; 0 if that is the last one
+ * @param after  how much later, in pictures; may be negative
+ * @param at     receives how far after *frame the moment is, as a share of the time to the next frame: [0,1), and 0 for
+ *               the last frame
  */
 void moments_at(const struct moments *m, uint64_t picture, double after, uint64_t *frame, double *at);
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/err.h"
+#include "base/plural.h"
 #include "look/apply/tell.h"
 #include "look/camera/camera.h"
 #include "look/camera/lens.h"
@@ -14,9 +15,13 @@
 #include "verbs/render/seen.h"
 #include "verbs/render/vectors.h"
 
-/* Note facts about a frame for gate N (diff/score/harm.c). changed: the scene with the rules applied */
-static int tell_harm(const struct spare *found, const struct scene *scene, const struct scene *changed,
-                     struct image *img)
+/*
+ * Attributes that gate N of `relume diff` reads (diff/score/harm.c).
+ * @param scene    without the rules
+ * @param changed  the same scene with the rules applied
+ */
+static int note_for_gate(const struct spare *found, const struct scene *scene, const struct scene *changed,
+                         struct image *img)
 {
 	char *lights = spare_tell_lights(found), *cards = spare_tell_cards(found, scene),
 	     *left_out = spare_tell_left_out(changed);
@@ -36,44 +41,46 @@ static int tell_harm(const struct spare *found, const struct scene *scene, const
 	return err;
 }
 
-/* Facts for the report's page of roles and lights (diff/report/roles.h), an attribute each. */
-struct telling {
+/* The picture that note_rule adds attributes to. */
+struct rule_notes {
 	struct image *img;
-	unsigned n;
+	unsigned n; /* attributes so far */
 };
 
-static int tell_role(void *user, const char *text)
+/* Store a line of look_tell as an attribute, for the report's page of roles and lights (diff/report/roles.h). */
+static int note_rule(void *user, const char *text)
 {
-	struct telling *t = user;
+	struct rule_notes *notes = user;
 	char name[32];
 
-	snprintf(name, sizeof(name), "relume:rule.%u", t->n++);
-	return image_set_attribute(t->img, name, "%s", text);
+	snprintf(name, sizeof(name), "relume:rule.%u", notes->n++);
+	return image_set_attribute(notes->img, name, "%s", text);
 }
 
-static void tell_unscaled(const char *trace, const struct scaled *scaled)
+/* Warn about parts of a scene that could not be scaled; about each kind only once in a run. */
+static void warn_unscaled(const char *trace, const struct scaled *scaled)
 {
-	static atomic_uint told;
-	const unsigned kept = (scaled->stipples ? 1u : 0) | (scaled->programs ? 2u : 0) | (scaled->starts ? 4u : 0) |
-	                      (scaled->narrow ? 8u : 0),
-		       before = atomic_fetch_or(&told, kept), now = kept & ~before;
+	enum { STIPPLES = 1, PROGRAMS = 2, STARTS = 4, NARROW = 8 };
+	static atomic_uint warned;
+	const unsigned found = (scaled->stipples ? STIPPLES : 0u) | (scaled->programs ? PROGRAMS : 0u) |
+	                       (scaled->starts ? STARTS : 0u) | (scaled->narrow ? NARROW : 0u),
+		       unreported = found & ~atomic_fetch_or(&warned, found);
+	const unsigned long long frame = scaled->scene.frame;
 
-	if (now & 1)
-		err_warn(trace, "stipples of polygons keep their pixels, from frame %llu on",
-		         (unsigned long long)scaled->scene.frame);
-	if (now & 2)
-		err_warn(trace, "programs of frame %llu look at pixels of the window, or set sizes of points; "
-		         "they know the recorded one", (unsigned long long)scaled->scene.frame);
-	if (now & 8)
-		err_warn(trace, "--size: programs place what frame %llu shows; it is seen no farther than recorded",
-		         (unsigned long long)scaled->scene.frame);
-	if (now & 4)
-		err_warn(trace, "frame %llu begins with what earlier frames drew; its pixels are enlarged",
-		         (unsigned long long)scaled->scene.frame);
+	if (unreported & STIPPLES)
+		err_warn(trace, "from frame %llu on: polygon stipples are not scaled", frame);
+	if (unreported & PROGRAMS)
+		err_warn(trace, "frame %llu: programs that read gl_FragCoord or write gl_PointSize still assume the recorded "
+		         "size", frame);
+	if (unreported & NARROW)
+		err_warn(trace, "frame %llu: programs place the vertices, so --size shows nothing beyond the recorded window",
+		         frame);
+	if (unreported & STARTS)
+		err_warn(trace, "frame %llu is drawn over an earlier frame's picture, whose pixels are enlarged", frame);
 }
 
-/* Another camera and size, and draws that could not be seen from there. */
-static int tell_seen(const struct settings *settings, const struct seen *seen, struct image *img)
+/* Note another camera or size in the picture, and warn about draws that the other camera cannot show. */
+static int note_camera(const struct settings *settings, const struct seen *seen, struct image *img)
 {
 	int err = 0;
 
@@ -85,16 +92,16 @@ static int tell_seen(const struct settings *settings, const struct seen *seen, s
 		err = image_set_attribute(img, "relume:eyes", "%s", lens_eyes(settings->camera));
 	if (!err && settings->camera && seen->elsewhere.without)
 		err_warn(settings->camera->path,
-		         "frame %llu: %u draws are left out: programs place their vertices, and nothing says where "
-		         "that is from elsewhere",
-		         (unsigned long long)seen->recorded->frame, seen->elsewhere.without);
+		         "frame %llu: %u draw%s left out, as programs place the vertices and other cameras cannot tell where",
+		         (unsigned long long)seen->recorded->frame, seen->elsewhere.without,
+		         plural(seen->elsewhere.without));
 	if (!err && settings_resize(settings))
 		err = image_set_attribute(img, "relume:recorded-size", "%ux%u", seen->recorded->width, seen->recorded->height);
 	return err;
 }
 
-/* When the program showed the frame, or would have shown the picture, as relume film wants to know. */
-static int tell_time(const struct settings *settings, const struct shot *shot, const struct scene *scene,
+/* Note when the program showed the frame; with --fps, when it would have shown the picture. `relume film` reads it. */
+static int note_time(const struct settings *settings, const struct shot *shot, const struct scene *scene,
                      struct image *img)
 {
 	const uint64_t time = settings->fps > 0 ? moments_time(&settings->moments, shot->number) : scene->time_ns;
@@ -104,8 +111,11 @@ static int tell_time(const struct settings *settings, const struct shot *shot, c
 	               0;
 }
 
-/* With --fps: the frame before a picture, how far behind it the picture is, and how their scenes were interpolated. */
-static int tell_moment(const struct settings *settings, const struct shot *shot, const struct between *between,
+/*
+ * Note how long the shutter is open. With --fps, also the last frame before the picture's moment, how far after it the
+ * moment is, as a share of the time to the next frame, and how the scene between them was made.
+ */
+static int note_moment(const struct settings *settings, const struct shot *shot, const struct between *between,
                        struct image *img)
 {
 	uint64_t frame;
@@ -126,35 +136,36 @@ static int tell_moment(const struct settings *settings, const struct shot *shot,
 	return err;
 }
 
-/* Motion since the picture before. */
+/* Add motion vectors from the previous picture. After a cut there are none. */
 static int add_vectors(const struct settings *settings, const struct shot *shot, const struct scene *scene,
                        struct image *img)
 {
-	struct between room = { .n_owned = 0 };
+	struct between between = { .n_owned = 0 };
 	struct vectors_frame *before = NULL;
-	const struct scene *was = NULL;
+	const struct scene *previous = NULL;
 	int err = 0;
 
 	if (shot->number > 0 && !shot_is_behind_cut(shot, &settings->moments))
-		err = shot_scene(shot, &settings->moments, -1, &room, &was);
-	if (!err && was) {
-		before = vectors_note(was);
+		err = shot_scene(shot, &settings->moments, -1, &between, &previous);
+	if (!err && previous) {
+		before = vectors_note(previous);
 		err = before ? 0 : ERR_SYSTEM;
 	}
 	if (!err)
 		err = vectors_add(scene, before, img);
 	vectors_free(&before);
-	between_release(&room);
+	between_release(&between);
 	return err;
 }
 
-/* A picture while the shutter is open. */
+/* The picture of a shot whose samples show different moments. */
 struct exposure {
 	const struct settings *settings;
 	const struct shot *shot;
-	struct seen seen; /* for the last sample */
+	struct seen seen; /* the scene of the last sample */
 };
 
+/* tracer_options.expose: make the scene of a sample. */
 static int expose(void *user, double away, const struct scene **scene)
 {
 	struct exposure *e = user;
@@ -169,13 +180,13 @@ static int expose(void *user, double away, const struct scene **scene)
 	return err;
 }
 
-/* The report's attributes of a frame under rules. */
-static int tell_rules(const struct settings *settings, const struct seen *seen, struct image *img)
+/* Note the effect of rules, for gates and reports. */
+static int note_rules(const struct settings *settings, const struct seen *seen, struct image *img)
 {
-	int err = tell_harm(&seen->found, seen->recorded, &seen->changed, img);
+	int err = note_for_gate(&seen->found, seen->recorded, &seen->changed, img);
 
 	return !err && settings->look ?
-	               look_tell(settings->look, seen->recorded, tell_role, &(struct telling){ img, 0 }) :
+	               look_tell(settings->look, seen->recorded, note_rule, &(struct rule_notes){ img, 0 }) :
 	               err;
 }
 
@@ -198,19 +209,19 @@ int picture_render(const struct settings *settings, struct tracer *tracer, const
 	if (!err)
 		err = seen_make(settings, shot->number, &seen);
 	if (!err && settings_resize(settings))
-		tell_unscaled(settings->trace, &seen.scaled);
+		warn_unscaled(settings->trace, &seen.scaled);
 	if (!err)
 		err = tracer_render(tracer, seen.scene, &options, img);
 	if (!err)
-		err = tell_seen(settings, &seen, img);
+		err = note_camera(settings, &seen, img);
 	if (!err)
 		err = settings_denoise(settings, img);
 	if (!err && settings->tracer.mode != TRACER_GL)
-		err = tell_rules(settings, &seen, img);
+		err = note_rules(settings, &seen, img);
 	if (!err)
-		err = tell_time(settings, shot, seen.recorded, img);
+		err = note_time(settings, shot, seen.recorded, img);
 	if (!err)
-		err = tell_moment(settings, shot, &seen.between, img);
+		err = note_moment(settings, shot, &seen.between, img);
 	if (!err)
 		err = programs_tell(seen.recorded, img);
 	if (!err && settings->motion)

@@ -1,4 +1,5 @@
-/* Shows a frame's picture while its samples still come in: a file that is always complete, rewritten now and then. */
+/* Shows a frame's picture while its samples are still being traced: a file that is always complete, and rewritten from
+ * time to time. */
 #pragma once
 
 #include "tracer/image/image.h"

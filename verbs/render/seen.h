@@ -1,4 +1,4 @@
-/* Prepares a moment's scene for the tracer: applies the rules, the size and the camera asked for. */
+/* Prepares the scene of a moment for the tracer: applies the rules, the requested size and the requested camera. */
 #pragma once
 
 #include "look/between/between.h"
@@ -9,17 +9,20 @@
 
 struct seen {
 	const struct scene *recorded; /* as the program had it, or would have had it between two frames */
-	const struct scene *scene;    /* the scene to trace: one of these */
-	struct between between;
-	struct scene whole, changed;
-	struct spare found;
-	struct scaled scaled;
-	struct elsewhere elsewhere;
+	const struct scene *scene;    /* the scene to trace: the last of the steps below that were needed */
+	struct between between;       /* interpolated between two frames */
+	struct scene whole;           /* with static things that the frame omits (look/apply/unseen.h) */
+	struct scene changed;         /* with the rules applied */
+	struct spare found;           /* surfaces that let light pass, found by the rules */
+	struct scaled scaled;         /* in a window of another size */
+	struct elsewhere elsewhere;   /* from another camera */
 };
 
 /**
- * @param seen    between may hold `recorded`; everything else is all zero. seen_release, also after an error
- * @param number  the picture's
+ * Prepare a scene.
+ * @param seen    `recorded` is set, and `between` if it holds that scene; everything else is zero. seen_release, also
+ *                after an error
+ * @param number  the picture's number in file names
  * @return 0; ERR_INPUT (reported): the camera's file is not for this frame; ERR_SYSTEM (reported)
  */
 int seen_make(const struct settings *settings, uint64_t number, struct seen *seen);

@@ -37,6 +37,7 @@ static const struct shared_scene *frame_of(const struct shot *shot, uint64_t fra
 	return s;
 }
 
+/* 1 if a cut follows a frame. */
 static int is_cut(const struct shot *shot, uint64_t frame)
 {
 	const struct shared_scene *s = frame_of(shot, frame);
@@ -44,10 +45,10 @@ static int is_cut(const struct shot *shot, uint64_t frame)
 	return s->after && interval_is_cut(s->after);
 }
 
-/* A place of the recording. */
+/* A moment of the recording. */
 struct place {
 	uint64_t frame;
-	double at; /* [0,1) behind it */
+	double at; /* [0,1): how far after it, as a share of the time to the next frame */
 };
 
 static struct place place_of(const struct moments *m, uint64_t picture, double after)
@@ -58,11 +59,13 @@ static struct place place_of(const struct moments *m, uint64_t picture, double a
 	return p;
 }
 
+/* A moment between two frames that a cut separates becomes the nearer frame. */
 static struct place clear_of_cut(const struct shot *shot, struct place p)
 {
 	return p.at > 0 && is_cut(shot, p.frame) ? (struct place){ p.frame + (p.at >= 0.5), 0 } : p;
 }
 
+/* 1 if a is later than b. */
 static int is_behind(struct place a, struct place b)
 {
 	return a.frame > b.frame || (a.frame == b.frame && a.at > b.at);

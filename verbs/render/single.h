@@ -12,8 +12,8 @@ struct single {
 	struct device *dev;
 	struct tracer *tracer;
 	struct supply supply;
-	struct scene *scene;   /* that frame's scene; set by the caller */
-	struct image image;    /* and its picture */
+	struct scene *scene;   /* the frame's scene; set by the caller, freed by single_free */
+	struct image image;    /* its picture, once rendered */
 };
 
 /**

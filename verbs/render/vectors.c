@@ -9,8 +9,8 @@
 #include "look/draws/matrix.h"
 #include "scene/drawn.h"
 
-/* How far off its triangle's plane and sides a point of a mesh may seem, as a share of the triangle's size: positions
- * are floats. */
+/* Tolerance for points of a triangle, as positions are floats: how far off its plane and sides they may be, as a share
+ * of its size. */
 #define OFF_TRIANGLE 1e-3
 
 /* A draw of a mesh. */
@@ -107,14 +107,14 @@ struct work {
 	const struct scene *scene;
 	const struct vectors_frame *before;
 	struct vectors_frame *now;
-	const struct placed **was;  /* [n_instances]: what an instance was, or NULL */
+	const struct placed **was;  /* [n_instances]: its partner in the previous frame, or NULL */
 	uint32_t width, height;
 	const float *id, *position[3];
 	float *x, *y, *known;
-	uint32_t *instance; /* [pixels]: which shows, or SCENE_NONE */
+	uint32_t *instance; /* [pixels]: the instance that shows and has a partner, or SCENE_NONE */
 };
 
-/* The pixel's vector: its point is at `here`, and was at `there`, eye spaces. */
+/* Set a pixel's vector. Its point is at `here` and was at `there`, each in its frame's eye space. */
 static void put(struct work *w, size_t pixel, const struct placed *now, const struct placed *was, const double here[3],
                 const double there[3])
 {
@@ -133,7 +133,7 @@ static void take_point(const struct work *w, size_t pixel, double out[3])
 		out[k] = (double)w->position[k][pixel];
 }
 
-/* Pixels of meshes that are what they were. moves: [n_instances][16], from eye space to that of the frame before */
+/* Pixels of unchanged meshes. moves: [n_instances][16], from this frame's eye space to the previous one's */
 static void follow_rigid(struct work *w, const double (*moves)[16], const uint8_t *is_rigid)
 {
 	for (size_t pixel = 0; pixel < (size_t)w->width * w->height; pixel++) {
@@ -215,7 +215,7 @@ static void place_corners(const struct placed *p, const uint32_t *index, double 
 	}
 }
 
-/* Pixels of a mesh whose vertices have moved: those on a triangle move with it. */
+/* Pixels of a mesh whose vertices have moved: each moves with its triangle. */
 static void follow_triangles(struct work *w, uint32_t i)
 {
 	const struct scene_mesh *mesh = w->scene->meshes[w->scene->instances[i].mesh];
@@ -261,7 +261,7 @@ static int match_all(struct work *w)
 	return err;
 }
 
-/* Which instance each pixel shows: the last that begins with the pixel's draw or before it. */
+/* Find the instance that each pixel shows: the last one that begins with the pixel's draw or before it. */
 static void find_instances(struct work *w)
 {
 	const struct scene *scene = w->scene;
