@@ -6,7 +6,7 @@
 #include "base/err.h"
 #include "base/memory.h"
 
-enum { MOST_EDITS = 500 }; /* most edits in a script; time and memory grow with its square */
+enum { MOST_EDITS = 500 }; /* in a script; time and memory grow with the square of this */
 
 struct part {
 	size_t a0, a1, b0, b1;
@@ -43,6 +43,7 @@ static int32_t *row(const struct work *w, int d)
 	return w->rows + (size_t)d * (size_t)d + (size_t)d; /* its middle: diagonal 0 */
 }
 
+/* Is the furthest path on diagonal k reached from diagonal k + 1 (down), rather than from k - 1? */
 static int comes_down(const int32_t *before, int d, int k)
 {
 	return k == -d || (k != d && before[k - 1] < before[k + 1]);

@@ -1,4 +1,4 @@
-/* The findings for people: a table, and a page beside the pictures. */
+/* Shows the differences found: a table for the terminal, and an HTML page beside the pictures. */
 #pragma once
 
 #include <stdio.h>
@@ -11,7 +11,8 @@ struct findings {
 	const struct sight *sight; /* NULL: no pictures were compared */
 };
 
+/** Print the table. */
 void page_table(const struct findings *f, FILE *out);
 
-/** DIR/index.html, which shows DIR/good.png and so on (sight_write). @return 0 or ERR_SYSTEM (reported) */
+/** Write DIR/index.html, which shows DIR/good.png and so on (sight_write). @return 0 or ERR_SYSTEM (reported) */
 int page_write(const struct findings *f, const char *folder);

@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A call that counts. */
+/* A call that is compared. */
 struct recording_call {
 	uint64_t key;  /* names_hash */
 	uint64_t name; /* hash of the command */
@@ -15,15 +15,16 @@ struct recording {
 	const char *path;
 	struct recording_call *calls; /* [n] */
 	size_t n, room;
-	size_t *frames;               /* [n_frames + 1]: the first call of each frame; the last of them may not end */
-	size_t n_frames, n_ended, frames_room;
-	uint64_t n_all;               /* calls, including those that do not count */
+	size_t *frames;               /* [n_frames + 1]: index of each frame's first call */
+	size_t n_frames, n_ended;     /* n_ended: without a last frame that the recording does not complete */
+	size_t frames_room;
+	uint64_t n_all;               /* number of calls, including those that are not compared */
 };
 
 /**
  * Read a recording.
- * @param ignore  shell patterns of commands that do not count, with commas; NULL: none
- * @param all     0: queries and waits do not count either, nor the recorder's notes on time
+ * @param ignore  commands that are not compared: shell patterns separated by commas; NULL: none
+ * @param all     0: queries, waits and the recorder's notes of the time are not compared either; 1: they are
  * @param path    kept
  * @return 0 or ERR_* (reported)
  */

@@ -14,6 +14,7 @@
 
 enum { PNG_LEVEL = 6, MOST_NAME = 4096 };
 
+/* Renders frames of both recordings, on one device. */
 struct eyes {
 	struct replay *replays[N_SIDES];
 	struct device *dev;
@@ -56,6 +57,7 @@ static void close_eyes(struct eyes *e)
 	replay_close(&e->replays[BAD]);
 }
 
+/* Render a frame. @param out  receives its picture; rgb is freed by the caller, also after an error */
 static int look(struct eyes *e, int side, size_t frame, struct oiio_pixels *out)
 {
 	const struct tracer_options options = { .mode = TRACER_GL, .samples = 1, .aov = "gl" };

@@ -7,10 +7,10 @@
 /* The first pair of frames whose pictures differ. */
 struct sight {
 	int is_found;               /* 0: none of those compared */
-	size_t looked, left;        /* pairs of frames that were compared, and pairs beyond the limit, which were not */
+	size_t looked, left;        /* numbers of pairs compared, and of pairs left out because of the limit */
 	size_t frame[N_SIDES];
-	uint64_t differing, pixels; /* pixels; all of them if the sizes differ */
-	unsigned worst;             /* largest difference of a channel, of 255 */
+	uint64_t differing, pixels; /* numbers of pixels that differ (all of them if the sizes do), and of all pixels */
+	unsigned worst;             /* largest difference of a channel, 0 .. 255 */
 	struct oiio_pixels pictures[N_SIDES]; /* free with sight_free */
 };
 

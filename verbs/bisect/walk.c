@@ -11,7 +11,7 @@
 #include "verbs/bisect/names.h"
 #include "verbs/bisect/states.h"
 
-/* Effects of a call that differs. */
+/* Effects of a call that differs, besides state. */
 enum { DRAWS = 1, FILLS_LIST = 2, CHANGES_OBJECT = 4, CHANGES_PROGRAM = 8, CHANGES_ARRAY = 16, N_EFFECTS = 5 };
 static const char *const effects[N_EFFECTS] = { "the drawing", "a display list", "an object",
 	                                        "programs or their inputs", "vertex arrays" };
@@ -106,7 +106,7 @@ static int put_text(const struct call *c, char **text)
 	return out && fclose(out) == 0 ? 0 : err_report(ERR_SYSTEM, NULL, "out of memory");
 }
 
-/* Both have executed the calls that differ. */
+/* Complete a difference after both recordings have executed its calls. */
 static int end_parting(struct walk *w, struct parting *p)
 {
 	const unsigned effect = w->sides[GOOD].effect | w->sides[BAD].effect;
@@ -127,7 +127,7 @@ static int take_both(struct walk *w, const struct call *calls[N_SIDES])
 	return err;
 }
 
-/* One call of each, of one command. */
+/* Execute one call of each recording, both of the same command, and compare them. */
 static int pair(struct walk *w)
 {
 	const size_t at[N_SIDES] = { w->sides[GOOD].next, w->sides[BAD].next };
@@ -154,7 +154,7 @@ static int pair(struct walk *w)
 	return err ? err : end_parting(w, p);
 }
 
-/* Calls that replace others, or have no counterpart. */
+/* Execute calls that replace others or have no counterpart. */
 static int replaced(struct walk *w, const size_t count[N_SIDES])
 {
 	struct parting *p = begin_parting(w);

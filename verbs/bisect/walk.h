@@ -5,14 +5,14 @@
 
 enum { GOOD, BAD, N_SIDES };
 
-/* A difference: a call with other arguments, or calls that only one of them has, or that replace others. */
+/* A difference: a call whose arguments differ, calls that only one recording has, or calls that replace others. */
 struct parting {
 	size_t frame[N_SIDES];     /* from 0 */
 	uint64_t number[N_SIDES];  /* the call's number in `relume dump`; if there is none, that of the call before */
 	size_t count[N_SIDES];     /* calls; 0: this recording has none here */
 	char *text[N_SIDES];       /* text of the first of them; NULL: none */
-	char *argument;            /* the first that differs, if both have one call of a command; else NULL */
-	char *state;               /* state that differs after it and did not before, a line each; NULL: none */
+	char *argument;            /* first argument that differs, if both have one call of the same command; else NULL */
+	char *state;               /* state that begins to differ here, one line for each member; NULL: none */
 	const char *effect;        /* other effects of the call ("the drawing"); NULL: none known */
 };
 

@@ -15,13 +15,13 @@
 #include "scene/scene.h"
 #include "verbs/render/single.h"
 
-/* A rendered frame. All zero is empty. */
-struct sighted {
+/* A frame of a recording, rendered in mode gl. All zero is empty. */
+struct rendering {
 	struct single single;
-	struct score_picture shown; /* its image, for scoring */
+	struct score_picture shown; /* its picture as display codes, for scoring */
 };
 
-static void free_sighted(struct sighted *v)
+static void free_rendering(struct rendering *v)
 {
 	score_picture_free(&v->shown);
 	single_free(&v->single);
@@ -37,7 +37,8 @@ static int play(struct replay *rp, uint64_t frame, struct scene **scene)
 	return rc == 1 ? 0 : rc ? rc : ERR_USAGE;
 }
 
-static int see(const char *trace, uint64_t frame, struct sighted *v)
+/* Render a frame. @return as play */
+static int render_frame(const char *trace, uint64_t frame, struct rendering *v)
 {
 	int err = single_open(trace, NULL, &v->single);
 
@@ -49,41 +50,43 @@ static int see(const char *trace, uint64_t frame, struct sighted *v)
 }
 
 /* The call that drew a pixel; UINT64_MAX: none. */
-static uint64_t call_at(const struct sighted *v, size_t pixel)
+static uint64_t call_at(const struct rendering *v, size_t pixel)
 {
 	const uint32_t draw = single_draw_at(&v->single, pixel);
 
 	return draw ? v->single.scene->draws[draw].call_number : UINT64_MAX;
 }
 
-/* --- The note: the call and the frame's size, then a line for each pixel with its codes -------------------------- */
+/* --- The note: a line "CALL WIDTH HEIGHT", then a line "PIXEL RED GREEN BLUE" for each wrong pixel ---------------- */
 
 enum { MOST_PIXELS = 16 };
 
-/* The pixels of a call that are furthest from the reference, worst first. @return how many */
-static unsigned find_worst(const struct sighted *v, const struct score_picture *ref, uint64_t call,
+/* Find the pixels of a call whose codes differ most from the reference, worst first. @return their number */
+static unsigned find_worst(const struct rendering *v, const struct score_picture *ref, uint64_t call,
                            size_t worst[MOST_PIXELS])
 {
-	int off[MOST_PIXELS];
+	int difference[MOST_PIXELS]; /* those of `worst` */
 	unsigned n = 0;
 
 	for (size_t i = 0; i < (size_t)ref->width * ref->height; i++) {
 		const int d = score_code_difference(v->shown.rgb + 3 * i, ref->rgb + 3 * i);
 		unsigned at;
 
-		if (d <= SCORE_CODES || (n == MOST_PIXELS && d <= off[n - 1]) || call_at(v, i) != call)
+		if (d <= SCORE_CODES || (n == MOST_PIXELS && d <= difference[n - 1]) || call_at(v, i) != call)
 			continue;
-		for (at = n < MOST_PIXELS ? n++ : n - 1; at > 0 && off[at - 1] < d; at--) {
-			off[at] = off[at - 1];
+		/* Insert it in order; the last one is dropped if the list is full. */
+		for (at = n < MOST_PIXELS ? n++ : n - 1; at > 0 && difference[at - 1] < d; at--) {
+			difference[at] = difference[at - 1];
 			worst[at] = worst[at - 1];
 		}
-		off[at] = d;
+		difference[at] = d;
 		worst[at] = i;
 	}
 	return n;
 }
 
-static int write_note(const struct sighted *v, const struct score_picture *ref, uint64_t call, const char *path,
+/* @param n  receives the number of pixels noted */
+static int write_note(const struct rendering *v, const struct score_picture *ref, uint64_t call, const char *path,
                       unsigned *n)
 {
 	size_t worst[MOST_PIXELS];
@@ -103,18 +106,18 @@ static int write_note(const struct sighted *v, const struct score_picture *ref, 
 
 int wrong_again(const char *note, const char *trace, uint64_t frame, uint64_t call)
 {
-	struct sighted v = { .shown = { .width = 0 } };
+	struct rendering v = { .shown = { .width = 0 } };
 	FILE *in = fopen(note, "r");
-	uint64_t was;
+	uint64_t noted; /* the call's number in the note's recording, which may differ from this one's */
 	unsigned width, height, c[3];
 	size_t i;
-	int err = in && fscanf(in, "%" SCNu64 " %u %u", &was, &width, &height) == 3 ?
+	int err = in && fscanf(in, "%" SCNu64 " %u %u", &noted, &width, &height) == 3 ?
 	                  0 :
 	                  err_report(ERR_SYSTEM, note, "cannot be read"),
 	    same = 0;
 
 	if (!err)
-		err = see(trace, frame, &v);
+		err = render_frame(trace, frame, &v);
 	if (!err)
 		same = v.shown.width == width && v.shown.height == height;
 	while (same && fscanf(in, "%zu %u %u %u", &i, &c[0], &c[1], &c[2]) == 4) {
@@ -122,17 +125,19 @@ int wrong_again(const char *note, const char *trace, uint64_t frame, uint64_t ca
 
 		same = call_at(&v, i) == call && shown[0] == c[0] && shown[1] == c[1] && shown[2] == c[2];
 	}
-	free_sighted(&v);
+	free_rendering(&v);
 	if (in && ferror(in) && !err)
 		err = err_report(ERR_SYSTEM, note, "cannot be read");
 	if (in)
 		fclose(in);
+	/* Without the frame, there is no such fault. */
 	return err == ERR_USAGE ? 0 : err ? err : same;
 }
 
 /* --- The fault --------------------------------------------------------------------------------------------------- */
 
-static void tell(const struct score *s, const struct scene_draw *draw)
+/* Print the failed gates and the call to blame. */
+static void print_fault(const struct score *s, const struct scene_draw *draw)
 {
 	fprintf(stderr, "frame %" PRIu64 " fails", s->frame);
 	for (int g = 0; g < N_GATES; g++)
@@ -142,7 +147,8 @@ static void tell(const struct score *s, const struct scene_draw *draw)
 	        s->blame[0].pixels, plural(s->blame[0].pixels));
 }
 
-static int judge(const struct sighted *v, struct score_picture *ref, uint64_t frame, const char *trace,
+/* Score a frame; note and print the fault of the draw that is blamed first. @return as reduce_note */
+static int find_fault(const struct rendering *v, struct score_picture *ref, uint64_t frame, const char *trace,
                  const char *note)
 {
 	static const struct score_options options = { .channel = "gl" };
@@ -167,10 +173,10 @@ static int judge(const struct sighted *v, struct score_picture *ref, uint64_t fr
 	if (!err && !pixels)
 		err = err_report(ERR_USAGE, trace,
 		                 "frame %" PRIu64
-		                 " fails by its depth or shapes alone; say what to look for with --when",
+		                 " fails only by depth or shapes, not by colours; say what to look for with --when",
 		                 frame);
 	if (!err)
-		tell(&score, &v->single.scene->draws[draw]);
+		print_fault(&score, &v->single.scene->draws[draw]);
 	return err;
 }
 
@@ -179,7 +185,7 @@ int wrong_note(const char *trace, const char *reference, uint64_t frame, const c
 	struct set ref = { .name = NULL };
 	struct image image = { .width = 0 };
 	struct score_picture picture = { .width = 0 };
-	struct sighted v = { .shown = { .width = 0 } };
+	struct rendering v = { .shown = { .width = 0 } };
 	const struct set_entry *entry;
 	int err = set_open(reference, &ref);
 
@@ -190,13 +196,13 @@ int wrong_note(const char *trace, const char *reference, uint64_t frame, const c
 	if (!err)
 		err = picture_take_reference(&image, NULL, &picture);
 	if (!err) {
-		err = see(trace, frame, &v);
+		err = render_frame(trace, frame, &v);
 		if (err == ERR_USAGE)
 			err_report(err, trace, "has no frame %" PRIu64, frame);
 	}
 	if (!err)
-		err = judge(&v, &picture, frame, trace, note);
-	free_sighted(&v);
+		err = find_fault(&v, &picture, frame, trace, note);
+	free_rendering(&v);
 	score_picture_free(&picture);
 	image_free(&image);
 	set_free(&ref);
