@@ -31,7 +31,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 	if (!farm_job_load(folder, &job)) {
 		farm_script_print(&job, nowhere);
 		farm_job_task_of(&job, 0);
-		farm_job_task_of(&job, frame_list_last(&job.frames));
+		farm_job_task_of(&job, frame_list_last(&job.pictures));
 	}
 	farm_job_free(&job);
 	free(all);

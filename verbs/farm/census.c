@@ -108,7 +108,7 @@ double census_rate(const struct farm_job *job)
 	double last = start;
 	uint64_t frame = 0, n = 0;
 
-	for (uint64_t from = 0; start > 0 && frame_list_next(&job->frames, from, &frame); from = frame + 1) {
+	for (uint64_t from = 0; start > 0 && frame_list_next(&job->pictures, from, &frame); from = frame + 1) {
 		const double at = written(job, frame);
 
 		n += at >= start;

@@ -101,7 +101,7 @@ const struct options_table farm_options = {
 	.most = 1,
 };
 
-/* The value of an option of `relume render`, the last one; NULL where it is not given. */
+/* The value of an option of `relume render`; the last one if it is given several times. NULL: it is not given */
 static const char *render_option(const struct farm_job *job, const char *option)
 {
 	const size_t n = strlen(option);
@@ -118,7 +118,7 @@ static const char *render_option(const struct farm_job *job, const char *option)
 	return value;
 }
 
-/* The options for frames, output and re-rendering belong before the "--", once. */
+/* Options that the farm itself gives to `relume render` must not come after the "--". */
 static int check_render_options(const struct farm_job *job)
 {
 	static const char *const ours[] = { "-f", "--frames", "-o", "--output", "--chunk", "--force", "--dry-run" };
@@ -162,8 +162,8 @@ int farm_job_rehearse(const struct farm_job *job, const char *option, char **tex
 }
 
 /*
- * The numbers of the pictures. Only the options that may give them numbers of their own, from 0 on, cost a look at the
- * trace.
+ * Find the numbers of the pictures. They are those of the frames, unless an option may number them from 0 on; then
+ * `relume render` has to open the trace and list them.
  */
 static int number_pictures(struct farm_job *job)
 {
@@ -185,7 +185,7 @@ static int number_pictures(struct farm_job *job)
 		job->pictures_text = NULL;
 		return err_report(ERR_SYSTEM, NULL, "out of memory");
 	}
-	return frame_list_parse(job->pictures_text, &job->frames);
+	return frame_list_parse(job->pictures_text, &job->pictures);
 }
 
 /* out/gears.####.exr -> out/gears.farm */
@@ -201,6 +201,7 @@ static int name_folder(struct farm_job *job)
 	return 0;
 }
 
+/* Find this executable and the current directory. */
 static int find_places(struct farm_job *job)
 {
 	ssize_t n = readlink("/proc/self/exe", job->relume, sizeof(job->relume) - 1);
@@ -211,7 +212,7 @@ static int find_places(struct farm_job *job)
 	return 0;
 }
 
-/* The recorded references lie in NAME.ref beside NAME.trace; `relume diff` finds them by the trace. */
+/* The trace's name if recorded references are in NAME.ref beside it, where `relume diff` finds them; else NULL. */
 static const char *recorded_reference(const struct farm_job *job)
 {
 	size_t n = strlen(job->trace);
@@ -288,14 +289,14 @@ int farm_job_parse(int argc, char **argv, struct farm_job *out)
 	if (!err && !frame_pattern_has_number(out->output))
 		err = err_report(ERR_USAGE, NULL,
 		                 "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})", out->output);
-	if (!err && frame_list_last(&out->frames) == UINT64_MAX)
+	if (!err && frame_list_last(&out->pictures) == UINT64_MAX)
 		err = err_report(ERR_USAGE, NULL,
 		                 "'%s' has no end; tasks need one, as in 55-499 ('relume info' counts frames)",
 		                 out->frames_text);
 	if (err)
 		return err;
-	out->n_frames = frame_list_count(&out->frames, UINT64_MAX);
-	out->n_tasks = out->n_frames / out->chunk + (out->n_frames % out->chunk != 0);
+	out->n_pictures = frame_list_count(&out->pictures, UINT64_MAX);
+	out->n_tasks = out->n_pictures / out->chunk + (out->n_pictures % out->chunk != 0);
 	if (out->n_tasks > MAX_TASKS)
 		return err_report(ERR_USAGE, NULL,
 		                  "%" PRIu64 " tasks are more than anybody has nodes for; a larger --chunk makes fewer",
@@ -316,7 +317,7 @@ void farm_job_free(struct farm_job *job)
 	free(job->words);
 	free(job->sbatch);
 	free(job->pictures_text);
-	frame_list_free(&job->frames);
+	frame_list_free(&job->pictures);
 	*job = (struct farm_job){ 0 };
 }
 
@@ -338,7 +339,7 @@ int farm_job_save(const struct farm_job *job)
 	return part_close(&file, 0);
 }
 
-/* The file's text, ended by NUL beyond its size; the caller's. */
+/* Read a file, and append a NUL that *size does not count. @return its text, freed by the caller, or NULL */
 static char *read_arguments(const char *path, size_t *size)
 {
 	FILE *file = fopen(path, "r");
@@ -390,9 +391,9 @@ int farm_job_load(const char *folder, struct farm_job *out)
 	return err > 0 ? ERR_INPUT : err;
 }
 
-uint64_t farm_job_task_of(const struct farm_job *job, uint64_t frame)
+uint64_t farm_job_task_of(const struct farm_job *job, uint64_t picture)
 {
-	return frame_list_contains(&job->frames, frame) ?
-	               frame_list_part_of(&job->frames, UINT64_MAX, frame, job->n_tasks) :
+	return frame_list_contains(&job->pictures, picture) ?
+	               frame_list_part_of(&job->pictures, UINT64_MAX, picture, job->n_tasks) :
 	               0;
 }

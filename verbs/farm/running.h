@@ -1,4 +1,4 @@
-/* Who works on a job's frames: one run at a time, or each would overwrite what the other rendered. */
+/* Lets only one run at a time work on a job's frames; two would overwrite each other's. */
 #pragma once
 
 #include "verbs/farm/job.h"
@@ -10,5 +10,5 @@
  */
 int running_claim(const struct farm_job *job, int replace);
 
-/** The process that runs the job's script without Slurm, as "4711". @return 1, or 0 where there is none */
+/** Find the process that runs the job's script without Slurm. @param out  its number in decimal @return 1; 0: none */
 int running_process(const struct farm_job *job, char *out, size_t size);

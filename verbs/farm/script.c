@@ -95,7 +95,7 @@ static void put_head(const struct farm_job *job, FILE *out)
 	put_comment(out, job->frames_text);
 	fputs(" of ", out);
 	put_comment(out, job->trace);
-	fprintf(out, ", %" PRIu64 " in %" PRIu64 " task%s.\n", job->n_frames, job->n_tasks, plural(job->n_tasks));
+	fprintf(out, ", %" PRIu64 " in %" PRIu64 " task%s.\n", job->n_pictures, job->n_tasks, plural(job->n_tasks));
 }
 
 static void put_functions(const struct farm_job *job, FILE *out)
@@ -134,7 +134,7 @@ static void put_functions(const struct farm_job *job, FILE *out)
 	fputs("exit \"$1\"\n}\n\n", out);
 }
 
-/* A run of all frames on this machine holds a lock to its end, and names itself in it. */
+/* A run on this machine holds lock/run to its end, and writes its process number there. */
 static void put_claim(FILE *out)
 {
 	fputs("exec 9<>\"$job/lock/run\" || exit 5\n"
@@ -159,7 +159,7 @@ static void put_case(FILE *out)
 	      "esac\n", out);
 }
 
-/* The exit code of the frames, or else that of the report. */
+/* Ends with the exit code of rendering, or, if that is 0, with the report's. */
 static const char both[] = "report\nreported=$?\n[ \"$rendered\" = 0 ] || reported=$rendered\nat_end \"$reported\"\n";
 
 /*
@@ -206,7 +206,7 @@ static void put_parallel(const struct farm_job *job, FILE *out)
 	fputs(both, out);
 }
 
-/* In sbatch's file names a per cent sign means something. */
+/* sbatch expands % in file names, so each one is doubled. */
 static void put_slurm_log(const struct farm_job *job, FILE *out, const char *name)
 {
 	char path[2 * PATH_MAX + 32];

@@ -246,7 +246,7 @@ int slurm_check_size(const struct farm_job *job)
 	if (found && sscanf(found, "MaxArraySize = %" SCNu64, &most) == 1 && job->n_tasks >= most)
 		err = err_report(ERR_USAGE, NULL, "%" PRIu64 " tasks are more than this cluster's arrays hold (%" PRIu64
 		                 "); --chunk %" PRIu64 " makes few enough", job->n_tasks, most - 1,
-		                 (job->n_frames + most - 2) / (most - 1));
+		                 (job->n_pictures + most - 2) / (most - 1));
 	free(text);
 	return err;
 }

@@ -6,11 +6,11 @@
 
 enum { SPANS_MOST = 12 }; /* runs to print before "..." */
 
-/* All-zero is empty but for `out`. */
+/* Initially all zero, except `out`. */
 struct spans {
 	FILE *out;
-	uint64_t first, last, step, n; /* the run that is being collected: n frames */
-	unsigned printed;
+	uint64_t first, last, step, n; /* the run not printed yet: n frames */
+	unsigned printed;              /* number of runs printed */
 };
 
 /** Add a frame, in rising order. */

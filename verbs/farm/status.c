@@ -181,7 +181,7 @@ static int print_state(const struct farm_job *job, struct census *c, struct work
 		return err;
 	printf("frames %" PRIu64 " of %" PRIu64 " whole, %" PRIu64 " missing, %" PRIu64 " damaged, %" PRIu64
 	       " rendered with other settings\n",
-	       c->whole, job->n_frames, c->counts[CENSUS_MISSING], c->counts[CENSUS_DAMAGED],
+	       c->whole, job->n_pictures, c->counts[CENSUS_MISSING], c->counts[CENSUS_DAMAGED],
 	       c->counts[CENSUS_OUTDATED]);
 	print_frames(c);
 	print_work(job, work);
@@ -210,7 +210,7 @@ static int print_progress(const struct farm_job *job, const struct census *c, st
 	if (err || work->is_over)
 		return err;
 	strftime(clock, sizeof(clock), "%H:%M:%S", localtime(&now));
-	printf("%s  frames %" PRIu64 " of %" PRIu64 "; ", clock, c->whole + landed, job->n_frames);
+	printf("%s  frames %" PRIu64 " of %" PRIu64 "; ", clock, c->whole + landed, job->n_pictures);
 	print_work(job, work);
 	print_rate(job, work, c->n_wanting - landed);
 	putchar('\n');

@@ -1,5 +1,5 @@
-/* How a task of Slurm ended, by its log. job.sh writes a line there when a task begins and one when it ends
- * (script.h). */
+/* Reads from its log how a task ended: job.sh (script.h) writes a line there when the task begins, and one when it
+ * ends. */
 #pragma once
 
 #include "verbs/farm/job.h"
@@ -9,8 +9,8 @@ enum { TASK_LINE_BYTES = 400 };
 enum task_state { TASK_UNBEGUN, TASK_BEGUN, TASK_ENDED };
 
 struct task_story {
-	enum task_state state;      /* BEGUN and in no queue: killed with the script around it */
-	int code;                   /* ENDED: its exit code; above 128 it is a signal's */
+	enum task_state state;      /* BEGUN but in no queue: killed together with its script */
+	int code;                   /* if ENDED: its exit code; above 128: a signal's number + 128 */
 	char last[TASK_LINE_BYTES]; /* the last error since it began, else its last line; "": none */
 };
 
