@@ -66,7 +66,7 @@ struct kept {
 struct denoising {
 	const struct asked *asked;
 	struct set set;
-	struct kept kept[2 * MOST_REACH + 1]; /* any order */
+	struct kept kept[2 * MOST_REACH + 1]; /* in any order */
 };
 
 static void drop(struct kept *k)
@@ -76,7 +76,7 @@ static void drop(struct kept *k)
 	k->is_there = 0;
 }
 
-/* A frame, taken apart; read unless it is kept. @return 0 (*out is NULL if there is none) or ERR_* (reported) */
+/* Get a frame after filter_guess, from `kept` or its file. @return 0 (*out NULL: there is none) or ERR_* (reported) */
 static int keep(struct denoising *d, uint64_t frame, struct kept **out)
 {
 	const struct set_entry *entry = set_find(&d->set, frame);
@@ -107,7 +107,7 @@ static int keep(struct denoising *d, uint64_t frame, struct kept **out)
 	return err;
 }
 
-/* Drop frames that are too far from the next one. */
+/* Drop frames outside first .. first + 2 * reach. */
 static void forget(struct denoising *d, uint64_t first)
 {
 	for (size_t i = 0; i < sizeof(d->kept) / sizeof(d->kept[0]); i++)
@@ -115,7 +115,7 @@ static void forget(struct denoising *d, uint64_t first)
 			drop(&d->kept[i]);
 }
 
-/* The frame's neighbours without a gap, itself at *middle. */
+/* Collect a frame and its neighbours on both sides, up to the first gap or other size. *middle: index of the frame. */
 static int gather(struct denoising *d, uint64_t frame, unsigned reach, const struct filter_frame **around, unsigned *n,
                   unsigned *middle)
 {

@@ -38,7 +38,7 @@ static const struct kind {
 	    "-row-mt", "1", NULL } },
 	{ ".mp4",
 	  { "-f", "mp4", "-c:v", "libx264", "-crf", "17", "-preset", "medium", "-movflags", "+faststart", "-strict",
-	    "unofficial", NULL } }, /* which lets it tell of panoramas */
+	    "unofficial", NULL } }, /* unofficial: marks panoramas as such */
 	{ ".mkv", { "-f", "matroska", "-c:v", "libx264", "-crf", "17", "-preset", "medium", NULL } },
 };
 #define N_KINDS (sizeof(kinds) / sizeof(kinds[0]))

@@ -11,10 +11,10 @@ int encoder_knows(const char *path);
 
 /**
  * Start ffmpeg.
- * @param path           of the film, which appears once it is complete; kept until encoder_close
+ * @param path           the film's file, which appears once it is complete; kept until encoder_close
  * @param width, height  of all pictures
- * @param fps            pictures a second
- * @param view           how they are to be seen, as the film tells players
+ * @param fps            pictures per second
+ * @param view           tells players how to show the pictures
  * @return 0 or ERR_SYSTEM (reported)
  */
 int encoder_open(const char *path, uint32_t width, uint32_t height, unsigned fps,

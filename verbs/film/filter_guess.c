@@ -8,8 +8,8 @@
 #define INNER_LEAST 0.1f   /* least filter_same_surface for pixels inside a surface */
 #define WINDOW 3u          /* pixels to each side */
 #define MOST_PAIRS 128u
-#define QUANTILE 0.6f      /* which of the pairs is looked at; and the same quantile of a normal variable's square */
-#define QUANTILE_SQUARE 0.7083f
+#define QUANTILE 0.6f      /* the quantile of all pairs that is used */
+#define QUANTILE_SQUARE 0.7083f /* the same quantile of a standard normal variable's square */
 
 static int by_size(const void *a, const void *b)
 {

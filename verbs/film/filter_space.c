@@ -1,4 +1,4 @@
-/* Passes over the picture, each with twice the step. */
+/* filter_space: passes over the picture, each with twice the step of the one before. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,7 +10,7 @@
 
 #define PASSES 5u
 #define GLOSS_PASSES 2u    /* mirror images have edges that no guide has */
-#define SIGMA_LIGHT 1.8f   /* as many standard deviations of the noise */
+#define SIGMA_LIGHT 1.8f   /* brightness may differ by this multiple of the noise's standard deviation */
 
 struct pass {
 	const struct filter_frame *frame;

@@ -1,4 +1,4 @@
-/* The same points in frames before and after. */
+/* filter_time: finds a pixel's point in frames before and after, and mixes its light. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +8,7 @@
 #include "verbs/film/rows.h"
 
 /* The position of each pixel of a frame in the next one: motion vectors reversed. [pixels][2]; INFINITY: none */
-static void turn_round(const struct filter_frame *next, float (*out)[2])
+static void reverse_motion(const struct filter_frame *next, float (*out)[2])
 {
 	for (size_t i = 0; i < (size_t)next->width * next->height; i++)
 		out[i][0] = out[i][1] = INFINITY;
@@ -56,7 +56,8 @@ struct over_time {
 	struct filter_frame *out;
 };
 
-/* The weight of another frame's pixel: is it the same surface, and as bright as the noise of both guesses allows? */
+/* The weight of another frame's pixel: 0 unless it is on the same surface; lower if it is brighter or darker than noise
+ * explains. */
 static float same_point(const struct filter_frame *a, size_t i, const struct filter_frame *b, size_t k)
 {
 	const float *n = a->normal[i], *m = b->normal[k], *c = a->albedo[i], *d = b->albedo[k];
@@ -145,7 +146,7 @@ int filter_time(const struct filter_frame *const *frames, unsigned n, unsigned m
 	for (unsigned i = middle; i + 1 < n && !err; i++) {
 		onwards[i] = malloc((size_t)out->width * out->height * sizeof(**onwards) + 1);
 		if (onwards[i])
-			turn_round(frames[i + 1], onwards[i]);
+			reverse_motion(frames[i + 1], onwards[i]);
 		else
 			err = err_report(ERR_SYSTEM, NULL, "out of memory");
 	}

@@ -5,7 +5,7 @@
 
 #include "verbs/film/filter.h"
 
-#define FILTER_SIGMA_DEPTH 1.0f /* as many standard deviations */
+#define FILTER_SIGMA_DEPTH 1.0f /* depth may differ by this multiple of the slope */
 
 static inline float filter_brightness(const float c[3])
 {
@@ -20,7 +20,10 @@ static inline float filter_distance2(const float a[3], const float b[3])
 	return (x * x + y * y + z * z) / 3;
 }
 
-/* How likely two pixels are on one smooth surface, [0,1]. step: pixels between them */
+/*
+ * How likely two pixels are on one smooth surface, [0,1], by their normals and depths (after Schied et al., filter.h).
+ * slope: change of depth per pixel at a; step: pixels from a to b
+ */
 static inline float filter_same_surface(const struct filter_frame *f, size_t a, size_t b, float slope, float step)
 {
 	const float *n = f->normal[a], *m = f->normal[b];
@@ -28,7 +31,7 @@ static inline float filter_same_surface(const struct filter_frame *f, size_t a, 
 
 	if (!f->is_there[b] || cosine <= 0)
 		return 0;
-	for (int i = 0; i < 6; i++) /* to the 64th */
+	for (int i = 0; i < 6; i++) /* the 64th power */
 		cosine *= cosine;
 	return cosine * expf(-fabsf(f->depth[a] - f->depth[b]) /
 	                     (FILTER_SIGMA_DEPTH * slope * step + 1e-3f * fabsf(f->depth[a]) + 1e-6f));

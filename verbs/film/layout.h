@@ -1,4 +1,4 @@
-/* How a frame's two pictures, the program's own (raster) and the traced one, share a picture of a film. */
+/* Arranges the two pictures of a frame, the program's own (raster) and the traced one, in a picture of the film. */
 #pragma once
 
 #include <stdint.h>
@@ -7,7 +7,7 @@
 
 enum layout_kind { LAYOUT_SIDE, LAYOUT_WIPE, LAYOUT_ALTERNATE, LAYOUT_TRACED, LAYOUT_RASTER, N_LAYOUTS };
 
-/* The option's values, ended by NULL. */
+/* Names for --layout, ended by NULL. */
 extern const char *const layout_names[N_LAYOUTS + 1];
 
 struct layout {
@@ -31,7 +31,7 @@ int layout_moves(enum layout_kind kind);
  * Draw one picture of the film.
  * @param raster, traced  [height][width][3], NULL if the layout does not want it
  * @param seconds         since the start of the film: sets the position of a wipe, and which picture alternates
- * @param film            of layout_size
+ * @param film            receives the picture; its rgb has the size that layout_size gave
  */
 void layout_draw(const struct layout *layout, const uint8_t *raster, const uint8_t *traced, uint32_t width,
                  uint32_t height, double seconds, const struct oiio_pixels *film);
