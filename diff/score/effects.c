@@ -1,4 +1,4 @@
-/* Gates E1 to E3: the effects add up to the beauty, explain where it differs from gl, and touch enough pixels. */
+/* Gates E1 to E3: do the effects add up to the beauty, do they explain its differences, and is there enough of each? */
 #include "diff/score/measures.h"
 
 #include <math.h>
@@ -41,13 +41,13 @@ static double value_at(const struct image_channel *channel, size_t i, double abs
 	return channel ? (double)channel->values[i] : absent;
 }
 
-/* The layers of a frame: beauty = gl x shadow + relight + reflect + refract. */
+/* The layers of one colour. They satisfy beauty = gl * shadow + relight + reflect + refract. */
 enum { LAYER_BEAUTY, LAYER_GL, LAYER_SHADOW, LAYER_RELIGHT, LAYER_REFLECT, LAYER_REFRACT, N_LAYERS };
 
 /**
- * 1 if the renderer was asked to leave out some effect channels: that layers do not add up proves nothing then. The
- * file holds the renderer's --aov list; a file without one holds every effect that occurred.
- * @param first  receives the name of the first that is missing
+ * 1 if the renderer left out effect channels, so that an open sum means nothing. The file holds the renderer's --aov
+ * list; a file without one holds every effect that occurred.
+ * @param first  receives the name of the first effect left out
  */
 static int find_left_out(const struct image *img, const char **first)
 {
@@ -70,7 +70,7 @@ static int find_left_out(const struct image *img, const char **first)
 	return 0;
 }
 
-/* The channels of these layers, [R, G, B], and the tolerance of their sums. */
+/* The layers of a frame, and the tolerance of their sums: relative * size of the terms + absolute. */
 struct layers {
 	const struct image_channel *channels[3][N_LAYERS]; /* [colour][layer]; NULL: the frame has no such channel */
 	double relative, absolute;
@@ -98,8 +98,8 @@ static int find_layers(const struct image *img, struct layers *out)
 	for (int c = 0; c < 3 && all_halves && !halves; c++)
 		all_halves = holds_halves(out->channels[c][LAYER_BEAUTY], n) && holds_halves(out->channels[c][LAYER_GL], n);
 	if (halves || all_halves) {
-		out->relative = OFF_HALF;
-		out->absolute = 0x1p-23; /* four times half a step of halves below 2^-14 */
+		out->relative = TOLERANCE_HALF;
+		out->absolute = 0x1p-23; /* four roundings: below 2^-14, halves are 2^-24 apart, and rounding is off by 2^-25 */
 	}
 	return 1;
 }
@@ -108,8 +108,12 @@ static int find_layers(const struct image *img, struct layers *out)
  * beauty; the beauty differs from gl. */
 enum { PIXEL_OPEN = 1 << N_SCORE_EFFECTS, PIXEL_DIFFERS = 2 << N_SCORE_EFFECTS };
 
-/* Compare the sum of a pixel's layers. worst: raised to its error, in tolerances. @return findings */
-static unsigned look_at_pixel(const struct layers *l, size_t i, double *worst)
+/*
+ * Check the sum of a pixel's layers. Comparisons are negated so that NaN counts as a fault.
+ * @param worst  raised to the pixel's error if that is larger, in multiples of the tolerance
+ * @return the findings, as bits
+ */
+static unsigned check_pixel(const struct layers *l, size_t i, double *worst)
 {
 	unsigned found = 0;
 
@@ -166,7 +170,7 @@ void gate_count_effects(struct gate_frame *f)
 		f->score->info.effect_share[k] = (double)touched[k] / (double)n;
 }
 
-/** 1 if the sums prove anything; otherwise the gate's note gives the reason. */
+/** 1 if sums of the frame's layers are meaningful; otherwise sets the gate's note to the reason. */
 static int can_close(struct gate_frame *f, enum score_gate_id id)
 {
 	const char *left_out = NULL;

@@ -20,8 +20,8 @@
 #include "replay/machine/errors.h"
 #include "replay/machine/machine.h"
 
-#define ONE 32767.0f /* the stored value of 1 */
-#define PIXELS_A_REPEAT 256 /* this many count as one operation of a list (gls_is_beyond_measure) */
+#define UNIT 32767.0f            /* stored value of 1 */
+#define PIXELS_PER_OPERATION 256 /* as gls_is_beyond_measure counts the work of lists */
 
 /* Pixels x0 <= x < x1, y0 <= y < y1; row 0 at the bottom. */
 struct area {
