@@ -20,6 +20,7 @@
 #include "replay/machine/errors.h"
 #include "replay/play/player.h"
 #include "replay/programs/program.h"
+#include "replay/trace/cut.h"
 
 #define SPACING_BYTES ((uint64_t)1 << 20) /* bytes of calls between checkpoints: some milliseconds */
 #define ALWAYS_BYTES ((uint64_t)256 << 10) /* size that an index may always have, however small the trace */

@@ -54,7 +54,7 @@ struct index {
 	size_t n_frames, room_frames;
 	struct index_lack *lacks;
 	size_t n_lacks, room_lacks;
-	uint64_t calls, cut_after; /* cut_after: the call after which the trace is cut short; 0: it is whole */
+	uint64_t calls, cut_after; /* cut_after: the last call of a trace that is cut short; 0: it is whole */
 	int damaged;
 	uint8_t *signatures;
 	size_t n_signatures;

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "base/err.h"
-#include "base/hash.h"
 #include "replay/trace/container.h"
 #include "replay/trace/reader_calls.h"
 #include "replay/trace/reader_sigs.h"
@@ -162,20 +161,6 @@ int trace_reader_is_cut(const struct trace_reader *r)
 uint64_t trace_reader_cut_after(const struct trace_reader *r)
 {
 	return r->cut ? r->next_number : 0;
-}
-
-void trace_warn_cut(const char *path, uint64_t call)
-{
-	static _Thread_local uint64_t told[2]; /* the hash of the last path */
-	uint64_t hash[2];
-
-	hash_bytes(path, strlen(path), hash);
-	if (memcmp(hash, told, sizeof(told)) == 0)
-		return;
-	memcpy(told, hash, sizeof(told));
-	err_warn(path,
-	         "the file is cut short after call %llu; frames before it are whole, and 'relume repair' saves them",
-	         (unsigned long long)call);
 }
 
 int trace_reader_hash_begin(struct trace_reader *r)

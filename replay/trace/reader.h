@@ -83,11 +83,8 @@ int trace_reader_property_at(const struct trace_reader *r, size_t i, const char 
 /** 1 if the file was found to end inside an event or chunk. */
 int trace_reader_is_cut(const struct trace_reader *r);
 
-/** The call after which such a file ends; 0: it is whole, as far as it was read. */
+/** The last call of such a file; 0: it is whole, as far as it was read. */
 uint64_t trace_reader_cut_after(const struct trace_reader *r);
-
-/** Warn that a file is cut short after a call, once for a file. Reading to the end does so itself. */
-void trace_warn_cut(const char *path, uint64_t call);
 
 /** Hash the file while it is read: see container_hash_begin and container_hash_end. */
 int trace_reader_hash_begin(struct trace_reader *r);

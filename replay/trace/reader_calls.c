@@ -4,6 +4,7 @@
 
 #include "base/err.h"
 #include "replay/trace/container.h"
+#include "replay/trace/cut.h"
 #include "replay/trace/reader_sigs.h"
 #include "replay/trace/reader_values.h"
 
