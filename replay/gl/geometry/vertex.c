@@ -82,11 +82,17 @@ static int is_of_list(const struct gls_exec *x)
 	return x->drawn_list && (x->drawn_list < CALL_RUN_LAST || x->drawn_list > CALL_RUN_FIRST);
 }
 
-/* Set an attribute by a command; lists store attributes in another way. */
+/*
+ * Set an attribute by a command; lists store attributes in another way. Mesa (22.3.6, api_loopback.c) makes glColor4f
+ * of glColor3 with other types than float.
+ */
 static void set_components(struct gls_exec *x, struct gls_state *st, unsigned a, float value[4])
 {
+	const struct gls_suffix suffix = gls_commands[x->command].suffix;
+	const int is_all = a == GLS_ATTR_COLOR && suffix.type != GLS_SUFFIX_F;
+
 	if (!is_of_list(x) && gls_is_mesa(st))
-		gls_waiting_components(st, a, gls_commands[x->command].suffix.n, value);
+		gls_waiting_components(st, a, is_all ? 4 : suffix.n, value);
 	gls_set_attribute(x, st, a, value);
 }
 

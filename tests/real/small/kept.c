@@ -37,6 +37,39 @@ static void mix_colors_of_triangles(void)
 	mix_colors(GL_TRIANGLES, 0);
 }
 
+/* Other types than float: Mesa makes glColor4f of them, with an alpha of 1. */
+static void color3(int type)
+{
+	switch (type) {
+	case 0: glColor3d(0.2, 1, 0.3); break;
+	case 1: glColor3ub(51, 255, 77); break;
+	case 2: glColor3usv((const GLushort[]){ 13107, 65535, 19660 }); break;
+	case 3: glColor3i(429496729, 2147483647, 644245094); break;
+	case 4: glColor3bv((const GLbyte[]){ 25, 127, 38 }); break;
+	default: glColor3fv((const GLfloat[]){ 0.2f, 1, 0.3f });
+	}
+}
+
+static void mix_types_of_colors(void)
+{
+	glEnable(GL_BLEND);
+	glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+	for (int type = 0; type < 6; type++) {
+		glBegin(GL_QUADS);
+		for (int i = 0; i < 16; i++) {
+			const float x = 4 + 14 * (float)(i / 4) + (i % 4 == 1 || i % 4 == 2 ? 12 : 0);
+
+			if (i / 4 % 2)
+				color3(type);
+			else
+				glColor4f(1, 0.5f, 0.2f, 0.3f);
+			glVertex2f(x, (i % 4 < 2 ? 1 : 7) + 8 * (float)type);
+		}
+		glEnd();
+	}
+	glDisable(GL_BLEND);
+}
+
 static void mix_colors_between(void)
 {
 	glEnable(GL_BLEND);
@@ -117,6 +150,7 @@ int main(void)
 {
 	static void (*const frames[])(void) = { mix_colors_of_quads,
 		                                mix_colors_of_triangles,
+		                                mix_types_of_colors,
 		                                mix_colors_between,
 		                                pop_current,
 		                                pop_current_and_lights,
