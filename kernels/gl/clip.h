@@ -238,7 +238,8 @@ static inline void clip_triangle(GLOBAL const struct view *view, float height, s
 			float d = clip_distance(pool[next].clip, plane);
 			int crosses = d_last >= 0.0f ? d < 0.0f : !(d < 0.0f);
 
-			if (n_left + 2u > CLIP_MAX_CORNERS + 1u || cuts->n == CLIP_MAX_CUTS || !(M_ABS(d) <= CLIP_FLOAT_MAX))
+			if (n_left + 2u > CLIP_MAX_CORNERS + 1u || (crosses && cuts->n == CLIP_MAX_CUTS) ||
+			    !(M_ABS(d) <= CLIP_FLOAT_MAX))
 				return; /* infinite, NaN, or crossing a plane repeatedly because of rounding */
 			if (d_last >= 0.0f)
 				lists[!now][n_left++] = last;

@@ -21,6 +21,7 @@ PROGRAMS = {
     "defines": ("without a version", "version 120"),
     "depthless": ("an object's picture", "over a quad", "one with depth"),
     "direct": ("matrices", "named textures", "units", "buffers and programs", "framebuffers"),
+    "frustum": ("all orders", "seed 1", "seed 2", "seed 3"),
     "habits": ("lines' offset", "points' offset", "an offset to behind", "beside stipple",
                "beside stipple without gaps", "beside smooth points", "flags of a strip", "flags of a fan",
                "flags of a quad strip", "sprites left on", "blended ones", "by two filters", "a large rectangle",
