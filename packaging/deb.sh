@@ -21,5 +21,5 @@ head -n 1 debian/changelog | grep -q "^relume ($version) " || { echo "debian/cha
 # shellcheck disable=SC2086 # two options
 dpkg-buildpackage -us -uc -b ${2:+-a$2 -d} >../build.log 2>&1 || { tail -n 30 ../build.log >&2; exit 5; }
 cd ..
-ls ./*.deb
+for package in *.deb; do echo "$out/$package"; done
 lintian --fail-on error,warning --display-info ./*.changes
