@@ -142,14 +142,12 @@ static const struct options_table table = {
 		"        Images are a folder (the last number in a name is its frame), a pattern such as\n"
 		"        out/gears.####.exr, or one file. Pictures without channels gl.* are compared by their "
 	        "colours.\n"
-		"        Between two folders, pictures without a number and those in subfolders are matched by path: "
-	        "login.png, dark/login.exr.\n"
-		"RUN     the same frames again. With several runs, frames whose failures are noise are distinguished from "
-	        "regressions: for each\n"
-		"        pixel, the value nearest to REF within the range of the runs is used, and a failure that remains is a "
-	        "regression.\n"
-		"        REF may be approved frames. Entries for `flaky:` of relume-diff.yaml are proposed, and those no longer "
-	        "needed are listed.\n",
+		"        Between two folders, pictures without a number and those in subfolders are matched by path:\n"
+		"        login.png, dark/login.exr.\n"
+		"RUN     the same frames again. With several runs, frames whose failures are noise are distinguished\n"
+		"        from regressions: for each pixel, the value nearest to REF within the range of the runs is\n"
+		"        used, and a failure that remains is a regression. REF may be approved frames. Entries for\n"
+		"        `flaky:` of relume-diff.yaml are proposed, and those no longer needed are listed.\n",
 	OPTIONS_ROWS(rows),
 	.notes = "Exit codes: 0 all frames passed; 1 a frame failed or is missing; 3 an input cannot be read;\n"
 		 "4 there are traced frames without a reference or an approved frame, and all others passed.\n"

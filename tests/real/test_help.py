@@ -4,6 +4,7 @@ import re
 
 from helpers import ROOT, check, finish, relume
 
+COLUMNS = 120
 overview = relume("help")
 verbs = re.findall(r"^  (\w+) ", overview.stdout, re.M)
 check(overview.returncode == 0 and not overview.stderr, "help goes to standard output and exits with 0")
@@ -51,4 +52,10 @@ for verb in verbs:
     wrong = relume(verb, "--no-such-option")
     check(wrong.returncode == 2 and wrong.stderr, f"{verb} refuses an unknown option: exit code {wrong.returncode}")
     check("--no-such-option" in wrong.stderr, f"{verb} names the unknown option: {wrong.stderr}")
+
+formats = re.findall(r"^  (\w+-file) ", overview.stdout, re.M)
+check(len(formats) >= 5, f"help lists the formats of files: {formats}")
+for topic in verbs + formats:
+    wide = [line for line in relume("help", topic).stdout.split("\n") if len(line) > COLUMNS]
+    check(not wide, f"help {topic} has lines wider than {COLUMNS} columns: {wide}")
 finish()

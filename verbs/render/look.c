@@ -45,10 +45,9 @@ static const struct options_table table = {
 	.head = "usage: relume look TRACE [-f FRAMES] -o FILE\n"
 		"       relume look TRACE [-f FRAME] --sheet FILE.html\n"
 		"\n"
-		"Study a recording, and write rules for relume render --look: the camera, objects that never move, "
-	        "tricks that imitate light,\n"
-		"and lights. Each rule has a confidence and a reason. Edit the file to overrule it: "
-	        "'relume help look-file'.\n",
+		"Study a recording, and write rules for relume render --look: the camera, objects that never move,\n"
+		"tricks that imitate light, and lights. Each rule has a confidence and a reason. Edit the file to\n"
+		"overrule it: 'relume help look-file'.\n",
 	OPTIONS_ROWS(rows),
 	.takes = "one trace, and -o FILE or --sheet FILE.html",
 	.least = 1,

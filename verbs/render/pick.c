@@ -30,17 +30,16 @@ static const struct options_table table = {
 	.verb = "pick",
 	.head = "usage: relume pick TRACE -f N X,Y\n"
 		"\n"
-		"Say what a pixel of a frame shows: its draw and call, its mesh and textures with their hashes, its "
-	        "material, and a rule for\n"
-		"relume render --look that matches this surface and no other of the frame.\n"
+		"Say what a pixel of a frame shows: its draw and call, its mesh and textures with their hashes, its\n"
+		"material, and a rule for relume render --look that matches this surface and no other of the frame.\n"
 		"\n"
 		"X,Y  the pixel, counted from 0 at the upper left corner, as programs that show pictures count them\n",
 	OPTIONS_ROWS(rows),
-	.notes = "The output is a file of rules: write it to FILE.yaml, change what the surface is made of ('relume "
-	         "help look-file' lists them), and\n"
-		 "render with --look FILE.yaml. 'relume look --sheet' shows all surfaces of a frame at once.\n"
-		 "Exit codes: 0 done, 2 wrong usage, or nothing is drawn there, 3 the recording cannot be read, 5 the "
-	         "device or the system failed.\n",
+	.notes = "The output is a file of rules: write it to FILE.yaml, change what the surface is made of ('relume help\n"
+		 "look-file' lists the keys), and render with --look FILE.yaml. 'relume look --sheet' shows all surfaces\n"
+		 "of a frame at once.\n"
+		 "Exit codes: 0 done, 2 wrong usage, or nothing is drawn there, 3 the recording cannot be read, 5 the\n"
+		 "device or the system failed.\n",
 	.takes = "a trace and a pixel X,Y",
 	.least = 2,
 	.most = 2,
