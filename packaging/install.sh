@@ -13,14 +13,27 @@ place() {
 		# Remove folders that belong only to Relume, once empty.
 		case $3 in
 		lib/relume/lib/*) rmdir "$root/${3%/*}" "$root/lib/relume/lib" 2>/dev/null || : ;;
-		share/doc/relume/examples/*) rmdir "$root/${3%/*}" "$root/share/doc/relume/examples" "$root/share/doc/relume" 2>/dev/null || : ;;
-		lib/relume/* | share/relume/* | share/doc/relume/*) rmdir "$root/${3%/*}" 2>/dev/null || : ;;
+		share/doc/relume/*) (folder=${3%/*} && cd "$root/share/doc" && rmdir -p "${folder#share/doc/}") 2>/dev/null || : ;;
+		lib/relume/* | share/relume/*) rmdir "$root/${3%/*}" 2>/dev/null || : ;;
 		esac
 		return
 	fi
 	mkdir -p "$root/${3%/*}"
 	install -m "$1" "$2" "$root/$3.new"
 	mv -f "$root/$3.new" "$root/$3"
+}
+
+# place_page NAME: a page of $documents. Links to files that only the source has become plain text.
+place_page() {
+	script=''
+	for target in $(grep -o ']([^)# ]*' "$1" | cut -c 3- | grep -v '^http'); do
+		case " $documents " in
+		*" $(realpath -m --relative-to=. "${1%"${1##*/}"}$target") "*) ;;
+		*) script="$script;s|\\[\\([^]]*\\)\\](${target}[^)]*)|\\1|g" ;;
+		esac
+	done
+	sed "${script#;}" "$1" >"$build/page.md"
+	place 644 "$build/page.md" "share/doc/relume/$1"
 }
 
 version=$(cat VERSION)
@@ -43,9 +56,12 @@ place 644 verbs/query/relume-rays.h include/relume-rays.h
 place 644 "$build/relume.pc" share/pkgconfig/relume.pc
 place 644 "$build/relume-rays.pc" share/pkgconfig/relume-rays.pc
 place 644 diff/score/score.schema.json share/relume/score.schema.json
-place 644 README.md share/doc/relume/README.md
-for text in docs/*.md; do
-	place 644 "$text" "share/doc/relume/$text"
+documents=$(echo LICENSE README.md CHANGELOG.md CONTRIBUTING.md HACKING.md SECURITY.md docs/*.md corpus/picture.jpg docs/gallery/*)
+for document in $documents; do
+	case $document in
+	*.md) place_page "$document" ;;
+	*) place 644 "$document" "share/doc/relume/$document" ;;
+	esac
 done
 for page in "$build"/pages/man/*.[15]; do
 	place 644 "$page" "share/man/man${page##*.}/${page##*/}"

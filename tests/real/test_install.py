@@ -118,6 +118,14 @@ wanted = re.findall(r"^ {8,}(?:- )?(\w+):.* # ", keys, re.M)
 check(
     len(wanted) > 50 and all(f"{key}:" in shown for key in wanted),
     f"man 5 relume-look has every key: {[k for k in wanted if f'{k}:' not in shown]}")
+# Links between installed documents; pages of the source that are not installed are no longer links.
+documents = PREFIX / "share/doc/relume"
+links = [(page.relative_to(documents), target, (page.parent / target).exists()) for page in documents.rglob("*.md")
+         for target in re.findall(r"\]\((?!https?:)([^)#\s]+)", page.read_text(encoding="utf-8"))]
+dead = [f"{page}: {target}" for page, target, there in links if not there]
+check(len(links) > 25 and not dead, f"the {len(links)} links of installed documents lead somewhere: {dead}")
+kept = {str(page.relative_to(documents)) for page in documents.rglob("*.md")}
+check({"README.md", "SECURITY.md", "CHANGELOG.md", "docs/look.md"} <= kept, f"documents are installed: {kept}")
 # The hooks and recipes that the pages mention.
 examples = PREFIX / "share/doc/relume/examples"
 check((examples / "hooks/toon.cl").exists() and (examples / "hooks/car_paint.look.yaml").exists(),
@@ -175,5 +183,6 @@ for complete in (by_bash, by_zsh, by_fish):
 must(make("uninstall"))
 left = [str(p) for p in pathlib.Path(PLACE).rglob("*") if not p.is_dir()]
 check(not left, f"uninstall leaves nothing: {left}")
-check(not any((PREFIX / folder).exists() for folder in ("lib/relume", "share/relume")), "nor one of our folders")
+check(not any((PREFIX / folder).exists() for folder in ("lib/relume", "share/relume", "share/doc/relume")),
+      "nor one of our folders")
 finish()
