@@ -8,7 +8,8 @@ A README line "$ COMMAND" is run; the lines below it are its expected output, wi
 import os
 import re
 
-from helpers import BUILD, RELUME, ROOT, SCRATCH, check, finish, on_display, relume, run
+from codes import codes
+from helpers import BUILD, RELUME, ROOT, SCRATCH, check, finish, must, on_display, relume, run
 
 # Commands that wait for a person or for something unavailable here.
 CANNOT_RUN = {
@@ -86,6 +87,9 @@ check(n > 20, f"documents show commands: {n}")
 
 (PLACE / "build").mkdir(parents=True)
 (PLACE / "build/relume").symlink_to(RELUME)
+(PLACE / "build/demo").mkdir()  # with the recording that `make demo` leaves, as far as it is needed
+must(on_display(RELUME, "record", "-o", PLACE / "build/demo/marbles.trace", "--quit-after", "21", "--",
+                BUILD / "corpus/glx/marbles", "--size", "400x300"))
 (BUILD / "tests/cache").mkdir(parents=True, exist_ok=True)  # otherwise Mesa would report that it is missing
 env = {**os.environ, "PATH": f"{PLACE / 'build'}:{os.environ['PATH']}", "XDG_CACHE_HOME": str(BUILD / "tests/cache")}
 ran = 0
@@ -103,4 +107,12 @@ for command, printed in commands_of(ROOT / "README.md"):
         found = list(PLACE.glob(re.sub(r"#+", "*", written)))
         check(found and all(f.stat().st_size for f in found), f"{command} writes {written}")
 check(ran >= 5, f"the README's commands are run: {ran}")
+
+# The marble at the pixel that README picks shows the sky and the board: above and below its centre, other colours.
+without = PLACE / "plain.png"
+must(relume("render", PLACE / "build/demo/marbles.trace", "-f", "20", "-o", without))
+apart = abs(codes(without) - codes(PLACE / "mirror.png")).max(axis=0) > 20
+rows, columns = apart.any(axis=1).nonzero()[0], apart.any(axis=0).nonzero()[0]
+check(len(rows) > 80 and len(columns) > 80 and 100 <= columns[0] and columns[-1] <= 210,
+      f"the README's rule makes a mirror of one marble: {len(rows)} rows, columns {columns}")
 finish()
