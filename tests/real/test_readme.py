@@ -115,4 +115,14 @@ apart = abs(codes(without) - codes(PLACE / "mirror.png")).max(axis=0) > 20
 rows, columns = apart.any(axis=1).nonzero()[0], apart.any(axis=0).nonzero()[0]
 check(len(rows) > 80 and len(columns) > 80 and 100 <= columns[0] and columns[-1] <= 210,
       f"the README's rule makes a mirror of one marble: {len(rows)} rows, columns {columns}")
+
+# `make demo` prints a line as a stage begins, and one as it ends. Nothing is built here, and the command is a stub.
+stub = SCRATCH / "stub/relume"
+stub.parent.mkdir()
+stub.write_text("#!/bin/sh\necho '60 frames: 60 passed'\n")
+stub.chmod(0o755)
+printed = run(ROOT / "corpus/demo.sh", stub.parent, env={**os.environ, "MAKE": "true"}).stdout
+stages = re.findall(r"^(\w+) +\.\.\. +\S.*\n\1 +\d+\.\d s +\S.*$", printed, re.M)
+check(stages == ["install", "build", "record", "render", "film", "score"],
+      f"make demo announces each stage: {stages}\n{printed}")
 finish()
