@@ -164,7 +164,7 @@ TABLE = (
     (SCIENCE, "antennavis", "antennavis", ("antennavis", ), {"ref_every": 1, "keys": TURN}),
     (SCIENCE, "drawxtl", "drawxtl", ("sh", "-c",
                                      "cp /usr/share/doc/drawxtl/examples/bucky.str . && exec drawxtl bucky.str"),
-     {"ref_every": 10, "keys": ("wait 3", *TURN), "seconds": 18}),
+     {"ref_every": 1, "keys": ("wait 3", *TURN), "seconds": 18}),
     (SCIENCE, "gdis", "gdis xmakemol-gl", ("gdis", C60), {"ref_every": 1, "keys": TURN}),
     (SCIENCE, "v-sim", "v-sim xmakemol-gl", ("v_sim", C60), {"ref_every": 1, "keys": TURN}),
     (SCIENCE, "evolver", "evolver-ogl", ("evolver-ogl-d", "cube.fe"), {"ref_every": 1, "files": (("cube.fe", CUBE), )}),
