@@ -104,6 +104,11 @@ static int is_too_long(const struct frame_list *list)
 
 int frame_list_parse(const char *text, struct frame_list *out)
 {
+	return frame_list_parse_of(text, "frame range", out);
+}
+
+int frame_list_parse_of(const char *text, const char *what, struct frame_list *out)
+{
 	struct frame_list list = { 0 };
 	const char *p = text;
 
@@ -114,8 +119,8 @@ int frame_list_parse(const char *text, struct frame_list *out)
 		}
 		if (!parse_range(&p, &list.ranges[list.n_ranges]) || (*p != ',' && *p != '\0')) {
 			frame_list_free(&list);
-			return err_report(ERR_USAGE, NULL, "'%s' is not a frame range; write 7, 1-500, 55-, 1-500x5, "
-			                  "or several with commas", text);
+			return err_report(ERR_USAGE, NULL, "'%s' is not a %s; write 7, 1-500, 55-, 1-500x5, "
+			                  "or several with commas", text, what);
 		}
 		list.n_ranges++;
 		if (*p == '\0')
@@ -127,7 +132,7 @@ int frame_list_parse(const char *text, struct frame_list *out)
 	if (!is_disjoint(&list) && is_too_long(&list)) {
 		frame_list_free(&list);
 		return err_report(ERR_USAGE, NULL,
-		                  "'%s' names too many frames in ranges that overlap; write ranges that do not", text);
+		                  "'%s' names too much in ranges that overlap; write ranges that do not", text);
 	}
 	*out = list;
 	return 0;
@@ -179,6 +184,17 @@ uint64_t frame_list_needed(const struct frame_list *list)
 		needed = end > needed ? end : needed;
 	}
 	return needed;
+}
+
+int frame_report_missing(const char *trace, uint64_t frame, uint64_t n)
+{
+	if (n == 0)
+		return err_report(ERR_INPUT, trace, "holds no whole frame");
+	if (n == 1)
+		return err_report(ERR_USAGE, trace, "there is no frame %" PRIu64 "; the trace has 1 frame (0)", frame);
+	return err_report(ERR_USAGE, trace,
+	                  "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frames (0 to %" PRIu64 ")", frame, n,
+	                  n - 1);
 }
 
 /** The first frame of a range from `from` on. */

@@ -28,6 +28,9 @@ struct frame_list {
  * @return 0, ERR_USAGE (reported) or ERR_SYSTEM (reported)
  */
 int frame_list_parse(const char *text, struct frame_list *out);
+
+/** As frame_list_parse, for numbers of something else. @param what  for the message: "range of calls" */
+int frame_list_parse_of(const char *text, const char *what, struct frame_list *out);
 void frame_list_free(struct frame_list *list);
 
 /** 1 if the list holds the frame (an empty list holds every frame), else 0. */
@@ -38,6 +41,10 @@ uint64_t frame_list_last(const struct frame_list *list);
 
 /** The last frame that the recording must have; a range without an end needs its first. 0 for an empty list. */
 uint64_t frame_list_needed(const struct frame_list *list);
+
+/** Report that a recording has no such frame, and which it has. @param n  its frames @return ERR_USAGE, or ERR_INPUT if
+ * it has none */
+int frame_report_missing(const char *trace, uint64_t frame, uint64_t n);
 
 /** Number of frames of the list below `end`. */
 uint64_t frame_list_count(const struct frame_list *list, uint64_t end);

@@ -10,9 +10,9 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/frames.h"
 #include "base/hash.h"
 #include "base/memory.h"
-#include "base/plural.h"
 #include "base/progress.h"
 #include "capture/format/call.h"
 #include "gl_tokens.h"
@@ -380,12 +380,8 @@ int replay_take_frame(struct replay *rp, const char *path, uint64_t frame, struc
 
 	if (rc == 1)
 		rc = replay_next_frame(rp, 1, scene);
-	if (rc == 0 && replay_frame(rp) == 0)
-		rc = err_report(ERR_INPUT, path, "holds no whole frame");
-	else if (rc == 0)
-		rc = err_report(ERR_USAGE, path,
-		                "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frame%s (0 to %" PRIu64 ")",
-		                frame, replay_frame(rp), plural(replay_frame(rp)), replay_frame(rp) - 1);
+	if (rc == 0)
+		rc = frame_report_missing(path, frame, replay_frame(rp));
 	return rc < 0 ? rc : 0;
 }
 

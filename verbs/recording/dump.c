@@ -5,6 +5,7 @@
 #include "base/err.h"
 #include "base/frames.h"
 #include "base/options.h"
+#include "base/plural.h"
 #include "base/verbs.h"
 #include "replay/trace/reader.h"
 #include "replay/trace/text.h"
@@ -22,9 +23,16 @@ struct dump {
 	struct frame_list calls;
 };
 
+static int take_calls(const struct options_row *row, const char *value, void *out)
+{
+	(void)row;
+	frame_list_free(out);
+	return frame_list_parse_of(value, "range of calls", out);
+}
+
 static const struct options_row rows[] = {
 	{ "calls", 'c', "LIST", "only these calls: \"100\", \"0-50\", \"0-1000x10\", or several with commas",
-	  options_frames, .at = offsetof(struct dump, calls) },
+	  take_calls, .at = offsetof(struct dump, calls) },
 	{ OPTIONS_NO_SANDBOX },
 };
 
@@ -43,7 +51,7 @@ int dump_main(int argc, char **argv)
 	struct options_line line;
 	struct trace_reader *reader = NULL;
 	const struct call *call;
-	uint64_t last;
+	uint64_t last, first = 0, seen = 0, printed = 0;
 	int rc = options_parse(&table, argc, argv, &o, &line);
 
 	if (!rc)
@@ -54,12 +62,19 @@ int dump_main(int argc, char **argv)
 		goto done;
 	last = frame_list_last(&o.calls);
 	while ((rc = trace_reader_next(reader, &call)) == 1) {
-		if (frame_list_contains(&o.calls, call->number))
+		seen++;
+		if (frame_list_contains(&o.calls, call->number)) {
 			print_call(stdout, call);
+			printed++;
+		}
 		/* Calls are ordered by their return: earlier calls of other threads may still follow. */
 		if (last < UINT64_MAX && call->number > last + 1024)
 			break;
 	}
+	frame_list_next(&o.calls, 0, &first);
+	if (!rc && !printed && o.calls.n_ranges)
+		rc = err_report(ERR_USAGE, line.words[0], "there is no call %" PRIu64 "; the trace has %" PRIu64 " call%s, from 0 on",
+		                first, seen, plural(seen));
 	if (rc == 1)
 		rc = 0;
 	if (fflush(stdout) || ferror(stdout))

@@ -106,6 +106,7 @@ static void find_visual(struct replay *rp, struct frame_ends *ends)
 static int find_frame_ends(const struct options *o, struct frame_ends *ends)
 {
 	const uint64_t last = frame_list_last(&o->frames);
+	uint64_t first = 0;
 	struct replay *rp = NULL;
 	struct scene *scene;
 	int rc = replay_open(&rp, o->trace), err = rc;
@@ -122,10 +123,11 @@ static int find_frame_ends(const struct options *o, struct frame_ends *ends)
 	}
 	if (!err && rc < 0 && ends->n == 0)
 		err = rc; /* a damaged trace provides the frames before the damage */
+	if (!err && ends->n == 0 && ends->skipped_first)
+		err = err_report(ERR_USAGE, o->trace, "the first frame cannot be made alone: it is not reliable");
+	frame_list_next(&o->frames, 0, &first);
 	if (!err && ends->n == 0)
-		err = err_report(ERR_USAGE, o->trace, "%s", ends->skipped_first
-		                 ? "the first frame cannot be made alone: it is not reliable"
-		                 : "the trace has none of the frames asked for");
+		err = frame_report_missing(o->trace, first, replay_frame(rp));
 	if (!err && last != UINT64_MAX && replay_frame(rp) <= last)
 		err_warn(o->trace, "the trace has %" PRIu64 " frame%s", replay_frame(rp), plural(replay_frame(rp)));
 	if (!err) {

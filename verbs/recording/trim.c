@@ -13,7 +13,6 @@
 #include "base/err.h"
 #include "base/frames.h"
 #include "base/options.h"
-#include "base/plural.h"
 #include "base/verbs.h"
 #include "capture/format/ref.h"
 #include "verbs/recording/early.h"
@@ -55,14 +54,10 @@ static int find_first(struct trim *t)
 
 	rc = rc ? rc : replay_frame_count(rp, &frames, &damaged);
 	replay_close(&rp);
-	if (!rc && !frames)
-		rc = err_report(ERR_INPUT, t->path, "it has no complete frame");
 	if (!rc && t->last == UINT64_MAX && t->wanted != UINT64_MAX)
 		t->last = t->wanted < frames ? frames - 1 : t->wanted; /* to the end of the trace */
 	if (!rc && t->last >= frames)
-		rc = err_report(ERR_USAGE, t->path,
-		                "there is no frame %" PRIu64 "; the trace has %" PRIu64 " frame%s (0 to %" PRIu64 ")",
-		                t->last, frames, plural(frames), frames - 1);
+		rc = frame_report_missing(t->path, t->last, frames);
 	t->first = t->wanted;
 	while (!rc && (rc = needs_earlier(t, t->first)) == 1) {
 		t->first -= step < t->first ? step : t->first;

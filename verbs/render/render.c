@@ -7,6 +7,7 @@
 
 #include "base/err.h"
 #include "base/folder.h"
+#include "base/frames.h"
 #include "base/part.h"
 #include "base/plural.h"
 #include "base/verbs.h"
@@ -26,9 +27,24 @@
 /* How much of what was asked for the recording has. */
 struct extent {
 	uint64_t end;   /* frames of the recording */
+	uint64_t asked; /* frames or pictures, of all chunks */
 	uint64_t total; /* frames to render */
 	int short_of;   /* 1: it is damaged, and frames after the damage were asked for */
 };
+
+/* Check that each picture gets a name of its own. */
+static int check_names(const struct settings *s, const struct extent *x)
+{
+	const char *dot = strrchr(s->output, '.');
+	const int are_pictures = settings_number_pictures(s);
+
+	if (x->asked <= 1 || frame_pattern_has_number(s->output))
+		return 0;
+	return err_report(ERR_USAGE, NULL,
+	                  "'%s' holds no place for the frame number, but there are %llu %s: write %.*s.####%s%s", s->output,
+	                  (unsigned long long)x->asked, are_pictures ? "pictures" : "frames", (int)(dot - s->output),
+	                  s->output, dot, are_pictures ? "" : ", or name one frame with -f");
+}
 
 /* Check that the frames asked for are there; cut the list down to the chunk asked for. @return 1: the chunk holds no
  * frame */
@@ -39,16 +55,14 @@ static int choose_frames(struct settings *s, struct replay *replay, struct exten
 	if (err)
 		return err;
 	x->short_of = damaged && frame_list_last(&s->frames) >= x->end;
-	if (x->end == 0)
-		return err_report(ERR_INPUT, s->trace, "holds no whole frame");
-	if (s->frames.n_ranges && frame_list_needed(&s->frames) >= x->end && !damaged)
-		return err_report(ERR_USAGE, s->trace, "has %llu frame%s, numbered from 0; frame %llu is not there",
-		                  (unsigned long long)x->end, plural(x->end), (unsigned long long)frame_list_needed(&s->frames));
+	if (x->end == 0 || (s->frames.n_ranges && frame_list_needed(&s->frames) >= x->end && !damaged))
+		return frame_report_missing(s->trace, frame_list_needed(&s->frames), x->end);
+	x->asked = frame_list_count(&s->frames, x->end);
 	if (s->n_chunks && !settings_number_pictures(s))
 		err = frame_list_chunk(&s->frames, x->end, s->chunk, s->n_chunks);
 	x->total = frame_list_count(&s->frames, x->end);
 	s->moments = (struct moments){ .shutter = (double)s->shutter, .n = x->end };
-	return err;
+	return err || settings_number_pictures(s) ? err : check_names(s, x);
 }
 
 /* Pictures take the place of the frames that they show, of a turntable or at moments. */
@@ -67,14 +81,14 @@ static int list_pictures(struct settings *s, struct replay *replay, struct exten
 		err = err_report(ERR_USAGE, s->camera->path, "a turntable shows one recorded frame; -f names it");
 	if (err)
 		return err;
-	x->end = s->fps > 0 ? s->moments.count : camera_pictures(s->camera);
+	x->end = x->asked = s->fps > 0 ? s->moments.count : camera_pictures(s->camera);
 	snprintf(range, sizeof(range), "0-%llu", (unsigned long long)x->end - 1);
 	frame_list_free(&s->frames);
 	err = frame_list_parse(range, &s->frames);
 	if (!err && s->n_chunks)
 		err = frame_list_chunk(&s->frames, x->end, s->chunk, s->n_chunks);
 	x->total = err ? 0 : frame_list_count(&s->frames, x->end);
-	return err;
+	return err ? err : check_names(s, x);
 }
 
 /* Print what a real run would do. */

@@ -320,7 +320,7 @@ static const struct options_row rows[] = {
 	{ "threads", 0, "N", "compute threads of a CPU device (default: all cores)", options_number, AT(threads),
 	  .most = 1024, .kind = RUN },
 	{ "jobs", 'j', "N", "frames in flight on each device (default: by the number of cores)", options_number,
-	  AT(jobs), .most = 64, .kind = RUN },
+	  AT(jobs), .least = 1, .most = 64, .kind = RUN },
 	{ "limit-memory", 0, "M",
 	  "memory limit, such as 800M or 4G: fewer frames are in flight; a single frame that needs more ends the "
 	  "run",
@@ -567,10 +567,6 @@ int settings_parse(struct settings *s, int argc, char **argv)
 	if (err)
 		return err;
 	s->trace = s->line.words[0];
-	if (!frame_pattern_has_number(s->output) && (settings_number_pictures(s) ||
-	    !(s->frames.n_ranges == 1 && s->frames.ranges[0].first == s->frames.ranges[0].last)))
-		return err_report(ERR_USAGE, NULL, "'%s' holds no place for the frame number (####, %%04d, $F4 or {frame})",
-		                  s->output);
 	if (!s->tracer.samples && (s->tracer.noise > 0 || s->tracer.seconds > 0))
 		s->tracer.samples = MOST_SAMPLES;
 	s->denoise |= s->oidn;
