@@ -32,10 +32,25 @@ static int unreadable(const struct ref_file *ref, int code)
 	return err_report(code, ref->path, "cannot be read: %s", strerror(errno));
 }
 
+/* Warn that a file is cut short. @param lost  the frame of the cut record, or UINT64_MAX: not known */
+static void warn_cut(const struct ref_file *ref, uint64_t lost)
+{
+	uint64_t last = 0;
+
+	for (size_t i = 0; i < ref->n_entries; i++)
+		last = ref->entries[i].frame > last ? ref->entries[i].frame : last;
+	if (!ref->n_entries)
+		err_warn(ref->path, "is cut short in its first frame; record again, or copy the file again");
+	else
+		err_warn(ref->path, "is cut short %s frame %llu; record again, or copy the file again",
+		         lost == last ? "in" : "after", (unsigned long long)last);
+}
+
 /* Reads records up to the last whole one; a truncated file is not an error. */
 static int list_records(struct ref_file *ref, uint64_t file_bytes)
 {
 	uint64_t at = REF_MAGIC_BYTES;
+	uint64_t lost = UINT64_MAX;
 	struct ref_head head;
 	int rc;
 
@@ -52,12 +67,18 @@ static int list_records(struct ref_file *ref, uint64_t file_bytes)
 		if ((entry.kind != REF_COLOR && entry.kind != REF_DEPTH) || !entry.width || !entry.height ||
 		    entry.width > MAX_SIDE || entry.height > MAX_SIDE)
 			return err_report(ERR_INPUT, ref->path, "record %zu is damaged", ref->n_entries);
-		if (entry.packed_bytes > file_bytes - at)
+		if (entry.packed_bytes > file_bytes - at) {
+			lost = entry.frame;
+			ref->is_cut = 1;
 			break;
+		}
 		at += entry.packed_bytes;
 		if ((rc = add_entry(ref, &entry)))
 			return rc;
 	}
+	ref->is_cut |= at != file_bytes;
+	if (ref->is_cut)
+		warn_cut(ref, lost);
 	return 0;
 }
 
@@ -72,6 +93,15 @@ static int compare_entries(const void *one, const void *other)
 int ref_begins(const void *head)
 {
 	return memcmp(head, REF_MAGIC, REF_MAGIC_BYTES) == 0 || memcmp(head, REF_MAGIC_WHOLE, REF_MAGIC_BYTES) == 0;
+}
+
+int ref_beside(const char *trace, char *out, size_t size)
+{
+	size_t n = strlen(trace), end = n > 6 && strcmp(trace + n - 6, ".trace") == 0 ? n - 6 : n;
+
+	if (snprintf(out, size, "%.*s.ref", (int)end, trace) < (int)size)
+		return 0;
+	return err_report(ERR_USAGE, trace, "the name is too long");
 }
 
 int ref_open(struct ref_file *ref, const char *path)

@@ -46,13 +46,19 @@ struct ref_file {
 	char *path;
 	struct ref_entry *entries; /* all whole records, by frames */
 	size_t n_entries;
+	int is_cut;                /* 1: the file ends within a record; frames after the last entry's are lost */
 };
 
 /** 1 if a file with these first bytes holds reference frames. @param head  [REF_MAGIC_BYTES] */
 int ref_begins(const void *head);
 
+/** Name the reference file beside a trace: NAME.ref for NAME.trace. @return 0, or ERR_USAGE (reported: the name is too
+ * long) */
+int ref_beside(const char *trace, char *out, size_t size);
+
 /**
- * Open a reference file and list its records (pixels are not read yet).
+ * Open a reference file and list its records (pixels are not read yet). A file that ends within a record gives the
+ * records before it, and a warning.
  * @param ref  all zero; filled on success; close with ref_close
  * @return 0, ERR_INPUT (reported: missing, unreadable, or not such a file) or ERR_SYSTEM (reported)
  */

@@ -20,9 +20,9 @@ int picture_take_reference(const struct image *img, const char *channel, struct 
 	const char *layers[] = { channel ? channel : "gl", "gl", "beauty" };
 	int err = ERR_INPUT, has_layers = 0;
 
-	for (size_t i = 0; channel && i < img->n_channels; i++)
+	for (size_t i = 0; channel && !image_attribute(img, "relume:record") && i < img->n_channels; i++)
 		has_layers |= strchr(img->channels[i].name, '.') != NULL;
-	/* in a picture with layers, plain colours do not replace the requested one */
+	/* in a picture with layers, plain colours do not replace the requested one; a recorded frame has colours alone */
 	for (size_t i = 0; err == ERR_INPUT && i < sizeof(layers) / sizeof(layers[0]) - (size_t)has_layers; i++)
 		err = score_picture_from_image(img, layers[i], out);
 	return err;

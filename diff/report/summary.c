@@ -78,8 +78,10 @@ static void print_counts(const struct output_run *run, FILE *out)
 	}
 	fputc('\n', out);
 	if (run->n_unmatched)
-		fprintf(out, "not compared: %" PRIu64 " frame%s of the reference or the baseline that TRACED lacks; --all "
-		        "demands %s\n", run->n_unmatched, plural(run->n_unmatched), run->n_unmatched == 1 ? "it" : "them");
+		fprintf(out, "not compared: %" PRIu64 " frame%s of %s%s%s that %s lacks; --all demands %s\n", run->n_unmatched,
+		        plural(run->n_unmatched), run->reference ? run->reference : "",
+		        run->reference && run->baseline ? " or " : "", run->baseline ? run->baseline : "", run->traced,
+		        run->n_unmatched == 1 ? "it" : "them");
 }
 
 int summary_close(const struct output_run *run, FILE *out)

@@ -145,6 +145,12 @@ int scoring_image(const struct scoring *w, uint64_t frame, struct score_picture 
 	return err;
 }
 
+/** 1 if the reference of a frame is lost, as its file ends before it. */
+static int is_cut_off(const struct set *ref, uint64_t frame)
+{
+	return ref->ref.is_cut && frame > ref->entries[ref->n_entries - 1].frame;
+}
+
 /** Score one frame, whatever the outcome. @return 0, or ERR_SYSTEM (reported) */
 static int score_one(struct work *w, uint64_t frame, struct score *out)
 {
@@ -154,7 +160,10 @@ static int score_one(struct work *w, uint64_t frame, struct score *out)
 	struct score_picture picture = { 0 };
 	int err = 0;
 
-	*out = (struct score){ .frame = frame, .outcome = !t ? SCORE_FRAME_MISSING : SCORE_FRAME_EXTRA };
+	*out = (struct score){ .frame = frame,
+		               .outcome = !t                            ? SCORE_FRAME_MISSING :
+		                          !r && is_cut_off(w->all.ref, frame) ? SCORE_FRAME_UNREADABLE :
+		                                                          SCORE_FRAME_EXTRA };
 	if (!t || (!r && needs_reference))
 		return 0;
 	if (r)
@@ -202,6 +211,44 @@ static void *score_frames(void *arg)
 	return NULL;
 }
 
+static int has_layer(const struct image *img, const char *layer, int is_reference)
+{
+	struct score_picture picture = { 0 };
+	const float *planes[3];
+	int err;
+
+	if (!is_reference)
+		return score_find_layer(img, layer, planes);
+	err = picture_take_reference(img, layer, &picture);
+	score_picture_free(&picture);
+	return err != ERR_INPUT;
+}
+
+/* Check that some frame of a set has the layer of --channel. Files that cannot be read are reported later, when they
+ * are scored. @return 0 or ERR_USAGE (reported, with the layers of the first frame) */
+static int check_layer(const struct set *set, int is_reference, const uint64_t *frames, const struct output_run *run)
+{
+	const char *layer = run->options->channel;
+	char layers[200] = "";
+	int found = 0, quiet = 1;
+
+	err_share(&quiet);
+	for (size_t i = 0; i < run->n_scores && !found; i++) {
+		const struct set_entry *entry = set_find(set, frames[i]);
+		struct image img = { 0 };
+
+		if (!entry || set_read(set, entry, &img))
+			continue;
+		found = has_layer(&img, layer, is_reference);
+		if (!found && !*layers)
+			score_list_layers(&img, layers, sizeof(layers));
+		image_free(&img);
+	}
+	err_share(NULL);
+	return found || !*layers ? 0 : err_report(ERR_USAGE, set->name, "there is no layer '%s'; --channel may be %s", layer,
+	                                          layers);
+}
+
 int scoring_all(struct set *ref, struct set *traced, const struct baseline *baseline, const uint64_t *frames,
                 struct output_run *run)
 {
@@ -212,6 +259,13 @@ int scoring_all(struct set *ref, struct set *traced, const struct baseline *base
 	long cores = sysconf(_SC_NPROCESSORS_ONLN);
 	int n = 0;
 
+	if (run->options->channel) {
+		w.err = check_layer(traced, 0, frames, run);
+		if (!w.err)
+			w.err = check_layer(ref, 1, frames, run);
+		if (w.err)
+			return w.err;
+	}
 	/* frames take milliseconds, and important messages come at the end */
 	progress_begin_style(&w.progress, "scored", run->n_scores, isatty(STDERR_FILENO) ? PROGRESS_BAR : PROGRESS_NONE);
 	/* this thread works as well; if another does not start, only time is lost */

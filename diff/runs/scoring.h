@@ -39,7 +39,7 @@ int scoring_image(const struct scoring *all, uint64_t frame, struct score_pictur
  * Score frames.
  * @param frames  [run->n_scores]
  * @param run     scores, counts and seconds are filled in
- * @return 0 or ERR_SYSTEM (reported)
+ * @return 0, ERR_USAGE (reported: no frame has the layer of --channel) or ERR_SYSTEM (reported)
  */
 int scoring_all(struct set *ref, struct set *traced, const struct baseline *baseline, const uint64_t *frames,
                 struct output_run *run);

@@ -115,13 +115,17 @@ int score_find_layer(const struct image *img, const char *layer, const float *pl
 
 void score_list_layers(const struct image *img, char *out, size_t size)
 {
+	const float *planes[3];
+	const int has_beauty = score_find_layer(img, "beauty", planes);
 	size_t used = 0;
 
 	out[0] = '\0';
+	if (has_beauty)
+		used = (size_t)snprintf(out, size, "beauty");
 	for (size_t i = 0; i < img->n_channels && used < size; i++) {
 		const char *name = img->channels[i].name, *dot = strrchr(name, '.');
 		const int n = dot ? (int)(dot - name) : (int)strlen(name);
-		int is_new = 1;
+		int is_new = !(has_beauty && n == 1 && !dot && strchr("RGBAY", name[0]));
 
 		for (size_t k = 0; k < i; k++) {
 			const char *before = img->channels[k].name;

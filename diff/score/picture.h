@@ -27,7 +27,7 @@ uint8_t score_code(float number, int is_display);
  */
 int score_find_layer(const struct image *img, const char *layer, const float *planes[3]);
 
-/** List the layers and single channels of an image, "view.diffuse, N, Z"; truncated to `size`. */
+/** List the layers and single channels of an image, "beauty, view.diffuse, N, Z"; truncated to `size`. */
 void score_list_layers(const struct image *img, char *out, size_t size);
 
 /** Largest difference of three codes. */

@@ -132,6 +132,17 @@ for what, first, second in (("itself", data, data), ("another one", data, other)
         re.search(rf" {len(second)} bytes follow the recording after call \d+,", said) and said.count("\n") == 1,
         f"followed by {what}: info: {said}")
 
+# Reference frames stay beside the old recording; a line says how the new one gets them.
+cut.write_bytes(data[:len(data) // 2])
+new = SCRATCH / "new.trace"
+for there in (False, True):
+    if there:
+        cut.with_suffix(".ref").write_bytes(b"RELREF2\n")
+    said = relume("repair", "-o", new, cut).stdout
+    old_ref, new_ref = cut.with_suffix(".ref"), new.with_suffix(".ref")
+    check((f"cp {old_ref} {new_ref}, or name it: relume diff {old_ref} FRAMES\n" in said) == there,
+          f"reference frames {there}: {said}")
+
 # Nothing to save, and wrong usage: one line, and no file.
 new = SCRATCH / "none.trace"
 for what, content in (("its first bytes", data[:2]), ("its header", data[:12]), ("no trace", b"\x89PNG" + bytes(100))):

@@ -177,7 +177,8 @@ class Diff(unittest.TestCase):
         self.assertEqual(self.outcomes(self.ref, self.traced, "--all", expect=1)[2], "missing")
         self.assertEqual(self.outcomes(self.ref, self.traced, "--all", "-f", "2-9", expect=1),
                          {2: "missing", 3: "passed", 4: "passed"})
-        self.assertIn("not compared: 1 frame of the reference", self.diff(self.ref, self.traced, expect=0).stdout)
+        self.assertIn(f"not compared: 1 frame of {self.ref} that {self.traced} lacks; --all demands it\n",
+                      self.diff(self.ref, self.traced, expect=0).stdout)
         self.assertEqual(list(self.outcomes(self.ref, self.traced / "b.3.png", expect=0)), [3])
         self.diff(self.ref, self.traced, "-f", "3-4", expect=0)
         self.assertEqual(self.outcomes(self.ref, self.traced, "-f", "3-6", expect=1)[6], "missing")
@@ -262,7 +263,20 @@ class Diff(unittest.TestCase):
         done = self.diff(self.dir / "t.trace", self.traced, "--table", expect=0)
         self.assertIn("not measured: R5 depth: the frame has no channel", done.stdout)
         (self.dir / "t.ref").write_bytes(data[:-10000])  # truncates the last frame's colour, too
-        self.assertEqual(self.outcomes(self.dir / "t.ref", self.traced, expect=4)[4], "extra")
+        self.assertEqual(self.outcomes(self.dir / "t.ref", self.traced, expect=3)[4], "unreadable")
+        done = self.diff(self.dir / "t.ref", self.traced, expect=3)
+        self.assertEqual(done.stderr.count(f"warning: {self.dir}/t.ref: is cut short after frame 3; "), 1, done.stderr)
+        self.diff(self.dir / "t.ref", self.traced, "-f", "1-3", expect=0)
+
+    def test_no_such_layer(self):
+        depth = struct.pack("<f", 1.0) * (WIDTH * HEIGHT)
+        (self.dir / "t.ref").write_bytes(b"RELREF2\n" + b"".join(
+            ref_color(n, picture(n)) + ref_record(2, n, depth) for n in range(1, 5)))
+        for ref in (self.ref, self.dir / "t.ref"):
+            done = self.diff(ref, self.traced, "--channel", "foo", expect=2)
+            self.assertEqual(done.stderr, f"relume: {self.traced}: there is no layer 'foo'; --channel may be beauty\n")
+            self.assertEqual(done.stdout, "")
+            self.diff(ref, self.traced, "--channel", "beauty", expect=0)
 
     def test_frames_of_another_recording(self):
         golden = pathlib.Path(__file__).resolve().parent.parent / "golden"

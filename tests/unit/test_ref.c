@@ -151,6 +151,7 @@ START_TEST(test_cut_at_any_byte_keeps_whole_records)
 			whole++;
 		ck_assert_int_eq(ref_open(&ref, path), 0);
 		ck_assert_uint_eq(ref.n_entries, whole);
+		ck_assert_int_eq(ref.is_cut, cut != (whole ? record_end[whole - 1] : 8));
 		ref_close(&ref);
 	}
 }

@@ -1,11 +1,14 @@
 /* relume repair: save the intact part of a truncated or damaged trace as a new trace. */
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
+#include <unistd.h>
 
 #include "base/err.h"
 #include "base/options.h"
 #include "base/plural.h"
 #include "base/verbs.h"
+#include "capture/format/ref.h"
 #include "replay/machine/commands.h"
 #include "replay/trace/reader.h"
 #include "replay/trace/trace_out.h"
@@ -64,6 +67,17 @@ static int save_calls(struct trace_reader *r, struct trace_out *out, struct save
 	return rc == ERR_SYSTEM ? rc : 0;
 }
 
+/* Reference frames are found by the recording's name: say how the new one gets those of the old. */
+static void tell_references(const char *path, const char *new)
+{
+	char from[PATH_MAX], to[PATH_MAX];
+
+	if (ref_beside(path, from, sizeof(from)) || ref_beside(new, to, sizeof(to)))
+		return;
+	if (access(from, F_OK) == 0 && access(to, F_OK) != 0)
+		printf("refs  %s has the reference frames: cp %s %s, or name it: relume diff %s FRAMES\n", from, from, to, from);
+}
+
 static int repair(const char *path, const char *new)
 {
 	struct saved saved = { 0 };
@@ -96,6 +110,7 @@ static int repair(const char *path, const char *new)
 			       " bytes of another recording, which follows in the file: tail -c %" PRIu64
 			       " %s > SECOND.trace\n",
 			       behind, behind, path);
+		tell_references(path, new);
 	}
 	trace_out_drop(&out);
 	trace_reader_close(&r);

@@ -99,16 +99,6 @@ static int copy_calls(struct trim *t, struct trace_reader *r)
 
 /* ---- reference frames ---- */
 
-/* Path of the reference frames beside a trace, TRACE.ref. @return 0, or ERR_USAGE (reported: the name is too long) */
-static int ref_beside(const char *trace, char out[PATH_MAX])
-{
-	size_t n = strlen(trace), end = n > 6 && strcmp(trace + n - 6, ".trace") == 0 ? n - 6 : n;
-
-	if (snprintf(out, PATH_MAX, "%.*s.ref", (int)end, trace) < PATH_MAX)
-		return 0;
-	return err_report(ERR_USAGE, trace, "the name is too long");
-}
-
 /* @return 1 copied; 0 there are none; ERR_* (reported) */
 static int copy_references(const struct trim *t, const char *from, const char *to)
 {
@@ -146,8 +136,8 @@ static int trim(struct trim *t)
 
 	if (!rc)
 		rc = trace_out_open(&t->out, t->new, t->path, r);
-	rc = rc ? rc : ref_beside(t->path, ref);
-	rc = rc ? rc : ref_beside(t->new, new_ref);
+	rc = rc ? rc : ref_beside(t->path, ref, sizeof(ref));
+	rc = rc ? rc : ref_beside(t->new, new_ref, sizeof(new_ref));
 	rc = rc ? rc : find_first(t);
 	rc = rc ? rc : copy_calls(t, r);
 	if (!rc) {
