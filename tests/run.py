@@ -9,7 +9,8 @@ A test that reports its checks as libcheck does ("100%: Checks: 5, Failures: 0, 
 tests. A comment near the top of its source may say "serial" on a line of its own (run alone, because it measures time)
 or "limit: 300 s" (default: 120 s). TESTS_SLOWER=10 multiplies all limits by ten, as needed on emulated processors.
 
-The last line is "N passed, N failed, N skipped". The exit code is 1 if a test failed or none ran.
+The last line is "N passed, N failed, N skipped". The exit code is 1 if a test failed or none ran, or if no test has a
+part in its name; nothing is run then.
 """
 import concurrent.futures
 import os
@@ -42,6 +43,9 @@ class Test:
 def find_tests(build, parts):
     sources = [s for suffix in ("c", "sh", "py") for s in TESTS.glob(f"*/test_*.{suffix}")]
     tests = [Test(s, build) for s in sorted(sources)]
+    for part in parts:
+        if not any(part in t.name for t in tests):
+            sys.exit(f"no test has '{part}' in its name; names are those of files below {TESTS}, as in unit/test_house")
     return [t for t in tests if not parts or any(p in t.name for p in parts)]
 
 

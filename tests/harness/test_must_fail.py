@@ -41,8 +41,8 @@ if SANITIZED:
     CASES["a check leaks"] = (f"{FAILS} leak", "0 passed, 1 failed, 0 skipped", "LeakSanitizer")
 
 
-def run_tree(tree):
-    done = subprocess.run([ROOT / "tests/run.py", BUILD], env=dict(os.environ, RELUME_TESTS=tree), text=True,
+def run_tree(tree, *parts):
+    done = subprocess.run([ROOT / "tests/run.py", BUILD, *parts], env=dict(os.environ, RELUME_TESTS=tree), text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     return done.returncode, done.stdout
 
@@ -69,6 +69,14 @@ def check_nothing_ran():
     with tempfile.TemporaryDirectory() as tree:
         code, output = run_tree(tree)
     return code == 1 and output == "0 passed, 0 failed, 0 skipped\n"
+
+
+def check_unknown_name():
+    """A part that no test has in its name is named, and the others do not run."""
+    with tempfile.TemporaryDirectory() as tree:
+        write_test(tree, "exit 0")
+        code, output = run_tree(tree, "test_it", "nothing_matches")
+    return code == 1 and output.startswith("no test has 'nothing_matches' in its name; ") and output.count("\n") == 1
 
 
 def check_not_built():
@@ -101,6 +109,7 @@ def is_running(pid):
 
 results = {name: check_case(name, *case) for name, case in CASES.items()}
 results["nothing ran"] = check_nothing_ran()
+results["unknown name"] = check_unknown_name()
 results["not built"] = check_not_built()
 results["stragglers"] = check_stragglers()
 failed = [name for name, good in results.items() if not good]
