@@ -124,9 +124,9 @@ static int refuse(const char *typed, int is_help)
 		nearest_try(&nearest, verbs[i].name);
 	for (const struct manual_text *format = manual_formats; is_help && format->name; format++)
 		nearest_try(&nearest, format->name);
-	return err_report(ERR_USAGE, NULL, "unknown %s '%s'%s%s%s; 'relume help' lists them",
-	                  is_help ? "topic" : "command", typed, nearest.word ? "; did you mean '" : "",
-	                  nearest.word ? nearest.word : "", nearest.word ? "'?" : "");
+	return err_report(ERR_USAGE, NULL, "unknown %s '%s'; %s%s%s'relume help' lists them",
+	                  is_help ? "topic" : "command", typed, nearest.word ? "did you mean '" : "",
+	                  nearest.word ? nearest.word : "", nearest.word ? "'? " : "");
 }
 
 /* Buffered output may not be written yet: a full disk must show in the exit code. */

@@ -80,6 +80,29 @@ int options_misuse(const struct options_table *table)
 	return err_report(ERR_USAGE, NULL, "%s takes %s; 'relume help %s' says more", table->verb, table->takes, table->verb);
 }
 
+/* Say what of a command line is missing or too much. */
+static int check_complete(const struct options_table *table, const struct options_line *line)
+{
+	const struct options_row *missing = NULL;
+
+	for (size_t i = 0; i < table->n_rows && !missing; i++)
+		if (table->rows[i].is_required && !line->given[i])
+			missing = &table->rows[i];
+	if (line->n_words > table->most && table->most >= 0)
+		return err_report(ERR_USAGE, NULL, "%s takes %s, and '%s' is one too many; 'relume help %s' says more", table->verb,
+		                  table->takes, line->words[table->most], table->verb);
+	if (line->n_words < table->least && (line->n_words || missing || !table->takes))
+		return options_misuse(table);
+	if (line->n_words < table->least)
+		return err_report(ERR_USAGE, NULL, "%s takes %s, but no file is named; 'relume help %s' says more", table->verb,
+		                  table->takes, table->verb);
+	if (missing)
+		return err_report(ERR_USAGE, NULL, "%s takes %s, but %s%s is missing; 'relume help %s' says more", table->verb,
+		                  table->takes, missing->letter ? "-" : "--",
+		                  missing->letter ? (const char[]){ missing->letter, '\0' } : missing->name, table->verb);
+	return 0;
+}
+
 /* --- Parsing ----------------------------------------------------------------------------------------------------- */
 
 /* Build the arguments of getopt_long; the row of --help comes last. */
@@ -165,12 +188,7 @@ int options_parse(const struct options_table *table, int argc, char **argv, void
 	}
 	line->words = argv + optind;
 	line->n_words = argc - optind;
-	for (size_t i = 0; i < table->n_rows; i++)
-		if (table->rows[i].is_required && !line->given[i])
-			return options_misuse(table);
-	if (line->n_words < table->least || (table->most >= 0 && line->n_words > table->most))
-		return options_misuse(table);
-	return 0;
+	return check_complete(table, line);
 }
 
 /* --- What is kept ------------------------------------------------------------------------------------------------ */
@@ -289,11 +307,9 @@ int options_number(const struct options_row *row, const char *value, void *out)
 
 	errno = 0;
 	number = strtoul(value, &end, 10);
-	if (!errno && end != value && !*end && *value != '-' && number < row->least)
+	if (errno || end == value || *end || *value == '-' || number < row->least || number > row->most)
 		return err_report(ERR_USAGE, NULL, "--%s takes a number from %u to %u, not '%s'", row->name, row->least,
 		                  row->most, value);
-	if (errno || end == value || *end || *value == '-' || number > row->most)
-		return err_report(ERR_USAGE, NULL, "--%s takes a number up to %u, not '%s'", row->name, row->most, value);
 	*(unsigned *)out = (unsigned)number;
 	return 0;
 }

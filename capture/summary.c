@@ -78,7 +78,7 @@ void summary_print(const struct recorder_stats *stats)
 		        plural(p->frames), p->calls, plural(p->calls), p->bytes);
 		if (references)
 			fprintf(stderr, "%" PRIu64 " bytes of reference frames%s, ", references,
-			        p->lost_references ? " (stopped early)" : "");
+			        p->lost_references && !p->failed ? " (stopped early)" : "");
 		if (p->failed)
 			fprintf(stderr, "stopped early: %s\n", strerror(p->failed));
 		else

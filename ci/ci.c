@@ -218,6 +218,10 @@ static int run_all(struct asked *asked, const struct options_line *line)
 	if (!line->n_words && (p->frames || p->config || asked->environment.n || asked->press.n || asked->data.n))
 		return -err_report(ERR_USAGE, NULL, "--frames, --config, --env, --press and --data are for a PROGRAM; %s has its own",
 		                   asked->file);
+	if (!line->n_words && access(asked->file, F_OK) != 0 && errno == ENOENT)
+		return -err_report(ERR_INPUT, asked->file,
+		                   "there is no such file: name a program, as in 'relume ci -- ./game', or list programs there "
+		                   "('relume help ci-file' has the keys)");
 	if (!line->n_words)
 		return run_file(asked, &run);
 	p->command = line->words;

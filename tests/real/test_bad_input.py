@@ -59,6 +59,7 @@ READERS = {
     "diff": lambda t: ["diff", t, frames, "--report", WORK / "report"],
 }
 
+cut = SCRATCH / "cut.trace"
 missing, empty, picture = SCRATCH / "missing.trace", SCRATCH / "empty.trace", SCRATCH / "picture.trace"
 empty.touch()
 write_png(picture)
@@ -70,7 +71,10 @@ for verb, arguments in READERS.items():
 for verb in ("scene", "pick", "render"):
     arguments = READERS[verb](good)
     arguments = [a for a in arguments if a not in ("-f", "0")]
-    refused(relume(*arguments, "-f", "7"), USAGE, f"{verb} of a frame outside the trace")
+    done = relume(*arguments, "-f", "7")
+    refused(done, USAGE, f"{verb} of a frame outside the trace")
+    check(done.stderr.endswith(f"{good}: there is no frame 7; the trace has 3 frames (0 to 2)\n"),
+          f"{verb} says which frames there are: {done.stderr}")
     refused(relume(*arguments, "-f", "1-x"), USAGE, f"{verb} of a range that is none")
 
 refused(relume("farm", "script", "--for", "make", good, "-f", "1-", "-o", WORK / "x.####.exr"), USAGE,
@@ -89,17 +93,46 @@ refused(run(RELUME, "record", "-o", WORK / "x.trace", "--", "no-such-program"), 
 refused(run(RELUME, "render", good, "-o", WORK / "x.####.exr", "--device", "reference",
             preexec_fn=limit_file_size), SYSTEM, "render to a full disk")
 
-refused(relume("render", good, "-o", WORK / "x.exr"), USAGE, "render of several frames into one name")
+done = relume("render", good, "-o", WORK / "x.exr")
+refused(done, USAGE, "render of several frames into one name")
+check("3 frames: write " in done.stderr and f"{WORK}/x.####.exr, or name one frame with -f" in done.stderr,
+      f"says how many frames, and what to do: {done.stderr}")
+refused(relume("render", missing, "-o", WORK / "x.exr"), INPUT, "a missing trace is reported before the name")
+refused(relume("render", good, "-o", WORK / ".png"), USAGE, "an ending without a name")
+refused(relume("render", good, "-o", WORK / "x.####.exr", "-j", "0"), USAGE, "no frame in flight")
+for words, text in ((("render", good), "but -o is missing"),
+                    (("render", good, cut, "-o", "x.####.exr"), f"and '{cut}' is one too many"),
+                    (("farm",), "takes submit, script"), (("farm", "--nosuch"), "no option '--nosuch'"),
+                    (("dump", "-c", "x", good), "'x' is not a range of calls"),
+                    (("dump", "-c", "99999-", good), "there is no call 99999; the trace has ")):
+    done = relume(*words)
+    refused(done, USAGE, " ".join(map(str, words)))
+    check(text in done.stderr, f"{' '.join(map(str, words))}: {done.stderr}")
 refused(relume("render", good, "-o", WORK / "x.####.exr", "--device", "no such device"), USAGE, "render on no device")
 refused(relume("diff", good, SCRATCH / "no-frames"), INPUT, "diff with a missing folder")
 empty_folder = SCRATCH / "none"
 empty_folder.mkdir()
 refused(relume("diff", good, empty_folder), INPUT, "diff with a folder without frames")
 
+# Reference frames that are cut short, and a layer that no frame has.
+references, part = good.with_suffix(".ref").read_bytes(), SCRATCH / "part.ref"
+part.write_bytes(references[:-1])
+done = relume("diff", part, frames)
+check(done.returncode == 0 and done.stderr.count(f"warning: {part}: is cut short in frame 2; ") == 1,
+      f"without the last frame's depth: {done.returncode}, {done.stderr}")
+part.write_bytes(references[:len(references) // 2])
+done = relume("diff", part, frames)
+check(done.returncode == INPUT and done.stderr.count(f"warning: {part}: is cut short ") == 1
+      and "unreadable" in done.stdout, f"without later frames: {done.returncode}, {done.stderr}{done.stdout}")
+done = relume("diff", good, frames, "--channel", "foo")
+refused(done, USAGE, "a layer that no frame has")
+check(f"{frames}: there is no layer 'foo'; --channel may be beauty, " in done.stderr and ", gl, " in done.stderr,
+      f"the layers: {done.stderr}")
+check(relume("diff", good, frames, "--channel", "gl").returncode == 0, "the layer gl, against recorded frames")
+
 # A trace cut at any point is read up to its last whole call, or refused.
 data = good.read_bytes()
 rng = random.Random(1)
-cut = SCRATCH / "cut.trace"
 for size in sorted({1, 2, 3, 6, 7, len(data) - 1, *(rng.randrange(len(data)) for _ in range(200))}):
     cut.write_bytes(data[:size])
     done = relume("info", cut)

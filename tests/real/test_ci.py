@@ -307,6 +307,9 @@ def test_jobs():
 def test_bisect():
     """Exit codes for git bisect run: 125 if a commit cannot be judged."""
     (SCRATCH / "relume-ci.yaml").unlink(missing_ok=True)
+    done = run(RELUME, "ci", cwd=SCRATCH)
+    check(done.returncode == 3 and done.stderr.count("\n") == 1 and "relume ci -- " in done.stderr
+          and "relume help ci-file" in done.stderr, f"neither a list nor a program: {said(done)}")
     check(ci("bisected", "--bisect", *VIEWER).returncode == 125, "--bisect, not approved")
     approve("bisected")
     for program, code in ((("--", "false"), 125), (("--", "no-such-program"), 125), (VIEWER, 0),

@@ -24,7 +24,8 @@ check(relume("help", "help").stdout == overview.stdout, "`help help` prints the 
 check(relume().returncode == 2, "no verb is wrong usage")
 check(relume("paint").returncode == 2, "an unknown verb is wrong usage")
 near, far = relume("rendr"), relume("paint")
-check("unknown command 'rendr'; did you mean 'render'?" in near.stderr and "did you mean" not in far.stderr,
+check("unknown command 'rendr'; did you mean 'render'? 'relume help' lists them\n" in near.stderr
+      and "did you mean" not in far.stderr,
       f"a similar verb is suggested: {near.stderr}{far.stderr}")
 version = relume("--version")
 check(version.returncode == 0 and version.stdout == f"relume {(ROOT / 'VERSION').read_text()}",
@@ -32,6 +33,7 @@ check(version.returncode == 0 and version.stdout == f"relume {(ROOT / 'VERSION')
 for words, said in ((("render", "--frmes", "1"), "render has no option '--frmes', but --frames;"),
                     (("render", "--zzz"), "render has no option '--zzz';"), (("render", "--samples", "0"),
                                                                              "--samples takes a number from 1 to "),
+                    (("render", "--samples", "many"), "--samples takes a number from 1 to "),
                     (("render", "--rays", "0"), "--rays takes a number from 1 to "), (("render", "-y"),
                                                                                       "render has no option '-y';"),
                     (("render", "--frames"), "render: --frames takes a value;"), (("render", "-f"),

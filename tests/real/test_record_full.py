@@ -58,6 +58,13 @@ for number, reason in ((errno.ENOSPC, "disk full"), (errno.EDQUOT, "disk quota e
                     FULL_ERRNO=number)
     check_whole(f"errno {number}", done, trace, reason, ENDS)
 
+# Both stop, which is reported once (every name ends in nothing).
+trace = SCRATCH / "both.trace"
+done = recorded(trace, "--env", FULL, "--quit-after", 1000000, "--ref", "color", FULL_NAME="", FULL_BYTES=50000,
+                FULL_ERRNO=errno.ENOSPC)
+check(done.returncode == 5 and done.stderr.count("stopped early") == 1,
+      f"recording and reference frames: exit code {done.returncode}: {done.stderr[-600:]}")
+
 # Also if frames end in another way than by a swap.
 trace = SCRATCH / "flush.trace"
 done = recorded(trace, "--env", FULL, "--quit-after", 1000000, "--frame-end", "clear", FULL_NAME=".trace",

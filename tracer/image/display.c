@@ -35,7 +35,7 @@ enum display_kind display_kind_of(const char *path)
 	for (size_t i = 0; i < sizeof(known) / sizeof(known[0]); i++) {
 		const size_t m = strlen(known[i].ending);
 
-		if (n > m && strcasecmp(path + n - m, known[i].ending) == 0)
+		if (n > m && path[n - m - 1] != '/' && strcasecmp(path + n - m, known[i].ending) == 0)
 			return known[i].kind;
 	}
 	return DISPLAY_NONE;
@@ -43,6 +43,11 @@ enum display_kind display_kind_of(const char *path)
 
 int display_refuse(const char *path)
 {
+	const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+
+	if (name[0] == '.' && !strchr(name + 1, '.'))
+		return err_report(ERR_USAGE, NULL, "'%s' names no file before its ending; write %.*s####%s", path,
+		                  (int)(name - path), path, name);
 	return err_report(
 		ERR_USAGE, NULL,
 		"'%s' names no kind of picture: end it in .exr (OpenEXR, all channels), .png or .jpg (display "

@@ -19,7 +19,8 @@
 
 enum display_kind { DISPLAY_NONE, DISPLAY_EXR, DISPLAY_PNG, DISPLAY_JPEG };
 
-/** File format by the extension of a file name. DISPLAY_NONE: not a format that can be written. */
+/** File format by the extension of a file name. DISPLAY_NONE: not a format that can be written, or nothing but an
+ * extension. */
 enum display_kind display_kind_of(const char *path);
 
 /** Report that a file name has another extension, with the extensions that are known. @return ERR_USAGE */

@@ -157,7 +157,7 @@ static int with_job(int argc, char **argv, int (*verb)(struct farm_job *))
 	int err;
 
 	if (argc != (interval_s ? 3 : 2) || folder[0] == '-')
-		return err_report(ERR_USAGE, NULL, "relume farm %s takes %sthe FOLDER that submit printed", argv[0],
+		return err_report(ERR_USAGE, NULL, "farm %s takes %sthe FOLDER that submit printed", argv[0],
 		                  verb ? "" : "[--watch[=SECONDS]] and ");
 	err = farm_job_load(folder, &job);
 	if (!err)
@@ -176,6 +176,17 @@ static const struct {
 	{ "cancel", NULL, cancel },
 };
 
+static int refuse(const char *name)
+{
+	if (!*name)
+		return err_report(ERR_USAGE, NULL,
+		                  "farm takes submit, script, status, retry or cancel; 'relume help farm' says more");
+	if (name[0] == '-')
+		return err_report(ERR_USAGE, NULL, "farm has no option '%s' before submit, script, status, retry or cancel; "
+		                                   "'relume help farm' lists them", name);
+	return err_report(ERR_USAGE, NULL, "farm takes submit, script, status, retry or cancel, not '%s'", name);
+}
+
 int farm_main(int argc, char **argv)
 {
 	const char *name = argc > 1 ? argv[1] : "";
@@ -189,7 +200,7 @@ int farm_main(int argc, char **argv)
 	while (i < sizeof(verbs) / sizeof(verbs[0]) && strcmp(name, verbs[i].name) != 0)
 		i++;
 	if (i == sizeof(verbs) / sizeof(verbs[0]))
-		err = err_report(ERR_USAGE, NULL, "relume farm takes submit, script, status, retry or cancel, not '%s'", name);
+		err = refuse(name);
 	else if (verbs[i].with_words)
 		err = verbs[i].with_words(argc - 1, argv + 1);
 	else

@@ -238,10 +238,17 @@ int slurm_check_size(const struct farm_job *job)
 	static char *const scontrol[] = { "scontrol", "show", "config", NULL };
 	char *text = NULL, *found;
 	uint64_t most = 0;
-	int err = ask(scontrol, &text);
+	int rc = program_read(scontrol, 1, &text), err = 0;
 
-	if (err)
-		return err;
+	if (rc > 0) {
+		free(text);
+		return err_report(ERR_SYSTEM, NULL,
+		                  "Slurm's controller does not answer ('scontrol show config' ends with %d); start it, or go on "
+		                  "without: 'relume farm submit --local' renders here, 'relume farm script' prints a script",
+		                  rc);
+	}
+	if (rc)
+		return rc;
 	found = strstr(text, "MaxArraySize");
 	if (found && sscanf(found, "MaxArraySize = %" SCNu64, &most) == 1 && job->n_tasks >= most)
 		err = err_report(ERR_USAGE, NULL, "%" PRIu64 " tasks are more than this cluster's arrays hold (%" PRIu64

@@ -4,12 +4,15 @@
 
 #define FEW 0.1 /* share of the pixels: if fewer show a difference, people wonder why */
 
-/* A share of all pixels, "12" or "0.3". */
+/* A share of all pixels, "12", "0.3", "0.04" or "under 0.01". */
 static void write_share(uint64_t part, uint64_t all, char text[16])
 {
 	const double percent = 100 * (double)part / (double)all;
 
-	snprintf(text, 16, percent >= 1 ? "%.0f" : "%.1g", percent);
+	if (percent < 0.01)
+		snprintf(text, 16, "under 0.01");
+	else
+		snprintf(text, 16, percent >= 1 ? "%.0f" : "%.1g", percent);
 }
 
 static const char *name_of(enum tracer_part part, const struct settings *s, const struct carried *c)
