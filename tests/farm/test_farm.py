@@ -42,6 +42,16 @@ bare = SCRATCH / "bin"
 bare.mkdir()
 for tool in ("sh", "realpath", "mkdir", "flock", "seq", "ld"):
     (bare / tool).symlink_to(f"/usr/bin/{tool}")
+# With Slurm's commands, but without its controller: one line, which names the ways to go on.
+dead = SCRATCH / "dead"
+dead.mkdir()
+for tool in ("sbatch", "scontrol"):
+    (dead / tool).write_text("#!/bin/sh\necho 'slurm_load_ctl_conf error' >&2\nexit 1\n")
+    (dead / tool).chmod(0o755)
+_, pattern, job = place("dead job")
+done = run(RELUME, "farm", "submit", *words(pattern, 5), cwd=SCRATCH, env=dict(os.environ, PATH=f"{dead}:{bare}"))
+check(done.returncode == 5 and done.stderr.count("\n") == 1 and "--local" in done.stderr
+      and "relume farm script" in done.stderr and not job.exists(), f"no controller: {done.returncode}, {done.stderr}")
 folder, pattern, job = place("local")
 done = must(run(RELUME, "farm", "submit", *words(pattern, 5), cwd=SCRATCH, env=dict(os.environ, PATH=str(bare))))
 local = digests(folder)

@@ -23,7 +23,7 @@ def shares(images):
 
 def said(text):
     line = LINE.search(text)
-    return {name: share for name, share in re.findall(r"(\w[\w ]*?) on ([\d.e-]+) %", line[1])} if line else None
+    return {name: share for name, share in re.findall(r"(\w[\w ]*?) on ((?:under )?[\d.]+) %", line[1])} if line else None
 
 
 def render(trace, name, *options):
@@ -36,7 +36,7 @@ for program, options in (("spheres", ()), ("still_life", ()), ("still_life", ("-
         record(trace, corpus(program), "--frames", "3", "--size", "160x120", options=())
     text = render(trace, f"{program}.####.exr", *options)
     wanted = {
-        name: f"{share:.0f}" if share >= 1 else f"{share:.1g}"
+        name: f"{share:.0f}" if share >= 1 else f"{share:.1g}" if share >= 0.01 else "under 0.01"
         for name, share in shares(map(Image, sorted(SCRATCH.glob(f"{program}.*.exr")))).items()
     }
     check(wanted and said(text) == wanted, f"{program} {options}: {said(text)}, by the channels {wanted}: {text}")
