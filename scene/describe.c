@@ -62,7 +62,7 @@ static void write_lighting(FILE *out, const struct scene_material *m)
 	fprintf(out, ", shininess %.3g", (double)m->front.shininess);
 }
 
-/* Write the properties that rtMaterialEXT set. */
+/* Write how much light a surface reflects and lets through. */
 static void write_surface(FILE *out, const struct scene_surface *s)
 {
 	if (s->reflect > 0)

@@ -60,7 +60,7 @@ static void *look_up_gl(void *handle, const char *name)
 	switch (owner_of(found)) {
 	case OWNER_GL:
 		return resolve_substitute(entry_points, name, found);
-	case OWNER_RECORDER: /* found first, but returned only if the real GL has the function as well */
+	case OWNER_RECORDER: /* a thunk of ours: only for commands that the real GL has; other functions always */
 		command = resolve_number(name);
 		return command == N_COMMANDS || resolve_exists(command) ? found : NULL;
 	default:

@@ -131,7 +131,7 @@ static void drop_straight_corners(const struct mesh *mesh, struct face *face)
 }
 
 /*
- * Join two polygons along a shared edge, which runs from a's corner i, and in reverse from b's corner k, to the next.
+ * Join two polygons along a shared edge: a's corners i and i + 1, which are b's corners k + 1 and k.
  * @return 1: joined in a, and b has no corners left; 0: the result would not be convex, and nothing has changed
  */
 static int join_faces(const struct mesh *mesh, struct face *a, unsigned i, struct face *b, unsigned k)

@@ -119,7 +119,7 @@ static int pack_rows(struct image *img, const void *const *planes, uint32_t n)
 		err = pack_create(img, img->packers, &img->pack);
 	if (err)
 		return err;
-	/* Complete the chunk that waits, from the image's planes. */
+	/* Fill the chunk that waits in the image's planes, and pack it. */
 	keep_rows(img, planes, 0, head, waiting);
 	if (head)
 		err = pack_until(img->pack, img, NULL, 0, row + head);

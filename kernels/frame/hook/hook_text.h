@@ -86,7 +86,7 @@ static inline uint32_t hook_box_tests(const struct hook_trees *a, struct vec3 fr
 		at = (in == SCENE_NONE ? a->top + a->top_first : a->nodes + a->instances[in].node2_first) + node[depth];
 		tests += 2u;
 		for (uint32_t side = 0u; side < 2u; side++) {
-			/* An inner node has one child. A leaf of the top level has instances, a mesh's leaf has no more boxes. */
+			/* A side is one child, several instances (a leaf of the top level), or a mesh's leaf without boxes. */
 			const uint32_t count = at->count[side], n = !count ? 1u : in == SCENE_NONE ? count : 0u;
 			float least = 0.0f, most = distance;
 

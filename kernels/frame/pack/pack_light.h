@@ -17,8 +17,8 @@
 /* --- Colours ----------------------------------------------------------------------------------------------------- */
 
 /*
- * The current colours (glColor) at the three vertices of each lane's triangle. Lanes outside the set are undefined:
- * pack_load_triangles gave them the vertices of the first lane in it, so they use its geometry.
+ * The current colours (glColor) at the three vertices of each lane's triangle. Lanes outside the set, which has at
+ * least one, repeat its first lane's triangle (pack_load_triangles); their colours mean nothing.
  */
 static inline void pack_vertex_colors(const struct tables *t, const struct pack_list *list, const struct pack *p,
                                       uint lanes, struct vec4_16 *v)

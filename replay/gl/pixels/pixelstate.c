@@ -122,6 +122,7 @@ GLS_FAMILY(glPixelMap, STATE)
 	struct gls_pixel_map *m = &st->pixel_maps[which < N_GLS_PIXEL_MAPS ? which : 0];
 	int from_index = which < 6; /* I_TO_I, S_TO_S and I_TO_R .. I_TO_A map indices: their size is a power of two */
 	int to_index = which < 2; /* I_TO_I and S_TO_S map to indices, the others to colours */
+	const uint32_t buffer = gls_client_store(x, st)->buffer;
 	int in_bytes, is_missing;
 
 	if (gls_refuses(x, st, which >= N_GLS_PIXEL_MAPS, GL_INVALID_ENUM))
@@ -130,9 +131,9 @@ GLS_FAMILY(glPixelMap, STATE)
 		return;
 	memset(m, 0, sizeof(*m));
 	m->size = size;
-	if (gls_client_store(x, st)->buffer)
-		gls_buffer_keep(x, gls_buffer_find(st, st->client.unpack.buffer));
-	in_bytes = gls_client_store(x, st)->buffer || arg(c, 2)->type == TRACE_BLOB;
+	if (buffer)
+		gls_buffer_keep(x, gls_buffer_find(st, buffer));
+	in_bytes = buffer || arg(c, 2)->type == TRACE_BLOB;
 	is_missing = in_bytes ? read_from_bytes(st, c, size, type, m->values) != 0 : arg_floats(c, 2, m->values, size) < size;
 	if (is_missing)
 		gls_unsupported(x, "pixel maps that are not in the recording");
