@@ -42,7 +42,8 @@ if SANITIZED:
 
 
 def run_tree(tree, *parts):
-    done = subprocess.run([ROOT / "tests/run.py", BUILD, *parts], env=dict(os.environ, RELUME_TESTS=tree), text=True,
+    done = subprocess.run([ROOT / "tests/run.py", BUILD, *parts],
+                          env=dict(os.environ, RELUME_TESTS=tree, TESTS_SLOWER="1"), text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     return done.returncode, done.stdout
 
