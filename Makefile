@@ -45,7 +45,7 @@ LIBS := -Wl,--as-needed -lOpenEXRCore -lOpenCL -lsnappy -lpng -lbrotlidec -lz -l
 RECORDER_SRC := $(wildcard capture/gen/*.c capture/client/*.c capture/gl/*.c capture/write/*.c)
 RECORDER_GEN := tables/commands tables/enums thunks
 RECORDER_OBJ := $(RECORDER_SRC:%.c=$(BUILD)/recorder/%.o) \
-	$(patsubst %,$(BUILD)/recorder/capture/format/%.o,sizes reserve ref_pack) \
+	$(patsubst %,$(BUILD)/recorder/capture/format/%.o,sizes reserve ref_pack sidecar) \
 	$(patsubst %,$(BUILD)/recorder/gen/%.o,$(RECORDER_GEN))
 VISUAL_SRC := verbs/recording/visual.c
 REPLAY_SRC := $(wildcard replay/*.c replay/*/*.c replay/*/*/*.c)

@@ -10,7 +10,7 @@
 
 #include "base/err.h"
 #include "base/folder.h"
-#include "capture/sidecar.h"
+#include "capture/format/sidecar.h"
 
 #define ASIDE ".earlier"
 #define TRACE_MAGIC "at" /* how apitrace's files begin when compressed with snappy, as recordings are */
@@ -70,11 +70,12 @@ static int is_recording(const char *path)
 int earlier_set_aside(const char *trace)
 {
 	struct stat st;
+	const int is_there = stat(trace, &st) == 0;
 	int fd;
 
-	if (stat(trace, &st) == 0 && !S_ISREG(st.st_mode))
+	if (is_there && !S_ISREG(st.st_mode))
 		return err_report(ERR_SYSTEM, trace, "exists and is not a file");
-	if (stat(trace, &st) == 0 && !is_recording(trace))
+	if (is_there && !is_recording(trace))
 		return err_report(ERR_USAGE, trace, "exists and is no recording; give the new recording another name");
 	if (folder_make_for(trace))
 		return ERR_SYSTEM;

@@ -22,7 +22,7 @@
 #include "capture/executable.h"
 #include "capture/key.h"
 #include "capture/press.h"
-#include "capture/sidecar.h"
+#include "capture/format/sidecar.h"
 #include "capture/stats.h"
 #include "capture/summary.h"
 #include "capture/watching.h"

@@ -13,7 +13,7 @@
 #include "base/err.h"
 #include "base/plural.h"
 #include "capture/executable.h"
-#include "capture/sidecar.h"
+#include "capture/format/sidecar.h"
 
 /* Explain why a recording has no frame, and which option gives it some. */
 static void explain_no_frame(const struct stats_process *p)

@@ -13,6 +13,7 @@
 #include "base/memory.h"
 #include "base/part.h"
 #include "capture/format/ref_pack.h"
+#include "capture/format/sidecar.h"
 
 enum { MAX_SIDE = 65536 };
 
@@ -97,11 +98,7 @@ int ref_begins(const void *head)
 
 int ref_beside(const char *trace, char *out, size_t size)
 {
-	size_t n = strlen(trace), end = n > 6 && strcmp(trace + n - 6, ".trace") == 0 ? n - 6 : n;
-
-	if (snprintf(out, size, "%.*s.ref", (int)end, trace) < (int)size)
-		return 0;
-	return err_report(ERR_USAGE, trace, "the name is too long");
+	return sidecar_name(out, size, trace, ".ref") ? 0 : err_report(ERR_USAGE, trace, "the name is too long");
 }
 
 int ref_open(struct ref_file *ref, const char *path)

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "capture/format/sidecar.h"
 #include "capture/stats.h"
 #include "capture/write/clock.h"
 #include "capture/write/lock.h"
@@ -380,15 +381,8 @@ void writer_note_lost_references(void)
 int writer_sidecar(char *out, size_t size, const char *suffix)
 {
 	const char *path = sink_state().path;
-	size_t stem = strlen(path);
-	int n;
 
-	if (!stem)
-		return -1;
-	if (stem > 6 && strcmp(path + stem - 6, ".trace") == 0)
-		stem -= 6;
-	n = snprintf(out, size, "%.*s%s", (int)stem, path, suffix);
-	return n > 0 && (size_t)n < size ? 0 : -1;
+	return *path && sidecar_name(out, size, path, suffix) ? 0 : -1;
 }
 
 /* Beginning and end of the process */

@@ -23,7 +23,8 @@ def shares(images):
 
 def said(text):
     line = LINE.search(text)
-    return {name: share for name, share in re.findall(r"(\w[\w ]*?) on ((?:under )?[\d.]+) %", line[1])} if line else None
+    shares = line and re.findall(r"(\w[\w ]*?) on ((?:under )?[\d.]+) %", line[1])
+    return None if shares is None else dict(shares)
 
 
 def render(trace, name, *options):

@@ -127,10 +127,12 @@ for what, program in (("a program that does not exist", "/no/program"), ("one wi
           not list(SCRATCH.glob("old*.earlier")), f"{what}: the earlier recording is kept: {done.stderr}")
 done = on_display(RELUME, "record", "--quit-after", "3", "-o", old, "--", PROGRAM)
 check(done.returncode == 0 and "\nframes      3\n" in relume("info", old).stdout and
-      sorted(path.name for path in SCRATCH.glob("old.*")) == ["old.trace"], f"the new recording replaces it: {done.stderr}")
+      sorted(path.name for path in SCRATCH.glob("old.*")) == ["old.trace"],
+      f"the new recording replaces it: {done.stderr}")
 copy = SCRATCH / "program"
 shutil.copy(PROGRAM, copy)
 done = on_display(RELUME, "record", "-o", copy, "--", copy)
 check(done.returncode == 2 and "program: exists and is no recording; give the new recording another name" in done.stderr
-      and copy.read_bytes() == PROGRAM.read_bytes(), f"a program as the output: exit code {done.returncode}: {done.stderr}")
+      and copy.read_bytes() == PROGRAM.read_bytes(),
+      f"a program as the output: exit code {done.returncode}: {done.stderr}")
 finish()

@@ -11,6 +11,7 @@
 #include "base/folder.h"
 #include "base/part.h"
 #include "base/program.h"
+#include "capture/format/sidecar.h"
 
 #define DEFAULT_CHUNK 50
 #define MAX_TASKS 1000000
@@ -215,14 +216,9 @@ static int find_places(struct farm_job *job)
 /* The trace's name if recorded references are in NAME.ref beside it, where `relume diff` finds them; else NULL. */
 static const char *recorded_reference(const struct farm_job *job)
 {
-	size_t n = strlen(job->trace);
 	char name[PATH_MAX];
 
-	if (n > 6 && strcmp(job->trace + n - 6, ".trace") == 0)
-		n -= 6;
-	if (snprintf(name, sizeof(name), "%.*s.ref", (int)n, job->trace) >= (int)sizeof(name) || access(name, R_OK) != 0)
-		return NULL;
-	return job->trace;
+	return sidecar_name(name, sizeof(name), job->trace, ".ref") && access(name, R_OK) == 0 ? job->trace : NULL;
 }
 
 /* Only channels gl.*, from the recorded camera, can be scored. @return NULL if they are written, else why not */

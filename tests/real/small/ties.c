@@ -10,13 +10,18 @@ static void corner(float x, float y, float z)
 	glVertex3f(x, y, z);
 }
 
-static void ground(void)
+static void corners(void)
 {
-	glBegin(GL_QUADS);
 	corner(-20, -1, -1.5f);
 	corner(20, -1, -1.5f);
 	corner(50, 30, -80);
 	corner(-50, 30, -80);
+}
+
+static void ground(void)
+{
+	glBegin(GL_QUADS);
+	corners();
 	glEnd();
 }
 
@@ -24,10 +29,7 @@ static void inside(void)
 {
 	glBegin(GL_QUADS);
 	glColor4f(0.5f, 0.3f, 0.9f, 0.3f);
-	corner(-20, -1, -1.5f);
-	corner(20, -1, -1.5f);
-	corner(50, 30, -80);
-	corner(-50, 30, -80);
+	corners();
 	glEnd();
 }
 

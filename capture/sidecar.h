@@ -1,7 +1,0 @@
-/* Files beside a trace. */
-#pragma once
-
-#include <stddef.h>
-
-/** The name of a sidecar (".ref"), or of a further process' trace (".1.trace"): NAME.trace with its ending replaced. */
-void sidecar_name(char *out, size_t size, const char *trace, const char *suffix);
