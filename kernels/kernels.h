@@ -82,7 +82,9 @@ typedef float element_float;
 	VALUE(uint, to_lights) AND()        /* 1: rays to lights, which pass through some sides: INSTANCE_PASS_* */ \
 	OUT(uint, occluded)                 /* 1 if anything stops the ray, else 0 */
 #define ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
-	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) OUT(hit, hits)
+	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
+	VALUE(uint, after) AND()            /* 1: rays continue behind the hits at their t_min; 0: those are any buffer */ \
+	IN(hit, last) AND() OUT(hit, hits)
 #define ARGUMENTS_occlude_wide(IN, OUT, VALUE, GROUP, AND) \
 	IN(uint, opacity) AND()             /* words of the instances that have some: kernels/rays/opacity.h */ \
 	ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, node8, node8, triangle8)
@@ -287,7 +289,8 @@ typedef float element_float;
 	GROUP(tables, tables) AND() IN(hit, hits) AND() IN(ray, rays) AND() IN(path, paths) AND() \
 	VALUE(uint, to_lights) AND()        /* 1: rays to lights; 0: into the surroundings */ \
 	VALUE(float, least) AND()           /* a ray that carries no more light ends */ \
-	VALUE(uint, n) AND() \
+	VALUE(uint, after) AND()            /* 1: the rays continued behind the hits `last`; 0: those are any buffer */ \
+	IN(hit, last) AND() VALUE(uint, n) AND() \
 	OUT(float, visibility) AND()        /* also read */ \
 	OUT(ray, next_rays) AND() OUT(path, next_paths) AND() \
 	OUT(uint, counts)                   /* per path: 1 if it continues */
@@ -354,6 +357,8 @@ typedef float element_float;
 	IN(ray, next_rays) AND()            /* `slots` per item */ \
 	IN(path, next_paths) AND() IN(uint, counts) AND() IN(uint, places) AND() VALUE(uint, slots) AND() \
 	VALUE(uint, n) AND() OUT(ray, rays) AND() OUT(path, paths)
+#define ARGUMENTS_gather_hits(IN, OUT, VALUE, GROUP, AND) \
+	IN(hit, hits) AND() IN(uint, counts) AND() IN(uint, places) AND() VALUE(uint, n) AND() OUT(hit, last)
 #define ARGUMENTS_sky_ray(IN, OUT, VALUE, GROUP, AND) \
 	IN(hit, hits) AND() IN(ray, rays) AND() VALUE(uint, n) AND() OUT(ray, out)
 #define ARGUMENTS_want_lights(IN, OUT, VALUE, GROUP, AND) \
@@ -448,6 +453,7 @@ typedef float element_float;
 #define ARGUMENTS_hook_intersect(IN, OUT, VALUE, GROUP, AND) \
 	GROUP(tables, tables) AND() IN(view, views) AND() IN(hook_object, objects) AND() VALUE(uint, n_objects) AND() \
 	IN(ray, rays) AND() \
+	VALUE(uint, after) AND()            /* 1: rays continue behind their last hits */ \
 	IN(float, parameters) AND() VALUE(uint, words) AND() \
 	VALUE(uint, alone) AND()            /* 1: there are no triangles, so no hits yet */ \
 	VALUE(uint, first_slot) AND()       /* first of the triangles that represent these rays' hits */ \
@@ -475,7 +481,7 @@ typedef float element_float;
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(query_all) X(query_distance) X(query_box) \
 	X(query_sphere) \
 	X(vertex) X(vertex_program) X(window) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
-	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(leave) X(sky_ray) \
+	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(gather_hits) X(leave) X(sky_ray) \
 	X(want_lights) \
 	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(photon) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) \
 	X(plain) X(layered_start) X(layered_picture) X(plain_whole) X(clear) X(resolve) X(merge_samples) X(add_pass) \
@@ -581,6 +587,7 @@ KERNEL_LISTS(KERNEL_LIST_STRUCT)
 	X(scan_sum, scan_sum)           /* one chunk of counts per work item: their sum */ \
 	X(scan_place, scan_place)       /* the same: the place of each count's results */ \
 	X(gather_paths, gather_paths)   /* one path per work item: compacts its next rays into a dense list */ \
+	X(gather_hits, gather_hits)     /* the same for the hits that rays to lights continue behind */ \
 	X(leave, leave)                 /* one fragment per work item: its mirrored, refracted and scattered rays */ \
 	X(leave_packet, leave)          /* the same, SHADE_PACKET consecutive fragments per work item (CPUs) */ \
 	X(sky_ray, sky_ray)             /* one path per work item: its ray to the sky if it hit nothing */ \

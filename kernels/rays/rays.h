@@ -15,7 +15,8 @@
  * point, and the nearest hit of several instances is the one whose rounded t + shift is least.
  *
  * Among nearest hits at exactly the same t, the lowest instance wins, then the lowest primitive, so the answer does not
- * depend on the tree.
+ * depend on the tree. Rays that continue behind a hit (intersect, after) start at its t and find the next hit in this
+ * order, which may be at the same t: a film that lies on a wall does not hide it.
  *
  * Any hit and nearest hit follow one rule: a triangle is tested if the ray itself meets the box of its leaf, regardless
  * of the rays beside it, and both queries test boxes in the same way.

@@ -22,6 +22,14 @@
 struct found {
 	packf b1, b2;
 	packu instance, primitive;
+	packf after, shift; /* within an instance: as in struct walk */
+	packu tie;
+};
+
+/* The hits that a packet's rays continue behind. */
+struct last {
+	packf t;
+	packu instance, primitive;
 };
 
 /* Extract one ray of a packet, as in kernels/rays/walk.h. */
@@ -35,6 +43,15 @@ static inline void take_lane(const struct packet *p, uint lane, struct walk *w)
 #undef TAKE
 	find_rows(w);
 	w->hit.t = ((const float *)&p->t_max)[lane];
+}
+
+/* The same for a nearest-hit query's hit, and the one that the ray continues behind. */
+static inline void take_found(const struct found *f, uint lane, struct walk *w)
+{
+	w->hit.primitive = ((const uint *)&f->primitive)[lane];
+	w->after = ((const float *)&f->after)[lane];
+	w->shift = ((const float *)&f->shift)[lane];
+	w->tie = ((const uint *)&f->tie)[lane];
 }
 
 /*
@@ -52,8 +69,9 @@ INLINED uint walk_lanes(struct packet *p, struct found *found, int any, struct i
 
 		lanes &= lanes - 1;
 		take_lane(p, lane, &w);
-		w.hit.instance = SCENE_NONE;
-		w.hit.primitive = any ? SCENE_NONE : ((const uint *)&found->primitive)[lane];
+		w.hit.instance = w.hit.primitive = SCENE_NONE;
+		if (!any)
+			take_found(found, lane, &w);
 		walk_subtree(&w, start, 0, any, ignored, nodes, triangles);
 		if (w.hit.instance == SCENE_NONE)
 			continue;
@@ -201,7 +219,7 @@ WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int 
 				const packu primitive = blocks[i].primitive[lane];
 				const uint word = any ? opacity_word(ignored.words, ignored.opacity, blocks[i].primitive[lane]) : 0;
 				const uint passes = ignored.passes | opacity_sides(word, ignored.to_lights);
-				packf t, b1, b2;
+				packf t, b1, b2, t_eye;
 				packi hit;
 
 				if ((word & 3) == OPACITY_PASSES || passes == (INSTANCE_PASS_COUNTER | INSTANCE_PASS_CLOCKWISE))
@@ -214,6 +232,8 @@ WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int 
 					continue;
 				}
 				hit &= (t < p[k].t_max) | (primitive < found[k].primitive);
+				t_eye = t + found[k].shift;
+				hit &= (t_eye > found[k].after) | ((t_eye == found[k].after) & (primitive >= found[k].tie));
 				if (!any_pack(hit))
 					continue;
 				p[k].t_max = select(p[k].t_max, t, hit);
@@ -272,6 +292,18 @@ static inline packf far_shift(__global const struct instance *instance, const st
 	return select((packf)(0), shift, (shift * length > RAYS_FAR * instance->radius) & isfinite(shift));
 }
 
+/* Start in an instance without hits. last: what the rays continue behind, or NULL */
+static inline void enter_instance(struct found *found, packf shift, const struct last *last, uint index)
+{
+	found->primitive = SCENE_NONE;
+	found->shift = shift;
+	found->after = last ? last->t : -INFINITY;
+	found->tie = 0;
+	if (last)
+		found->tie = select(select((packu)(SCENE_NONE), last->primitive + 1, last->instance == index), (packu)(0),
+		                    last->instance < index);
+}
+
 /* Return to eye space with an instance's hits that are nearer, or as near and of a lower instance. */
 static inline void leave_instance(struct packet *eye, struct found *eye_found, const struct packet *p,
                                   const struct found *found, packf shift, uint index)
@@ -288,8 +320,8 @@ static inline void leave_instance(struct packet *eye, struct found *eye_found, c
 }
 
 /* Walk one instance's tree with the lanes of `meets`. */
-INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any, uint to_lights,
-                           __global const uint *opacity, ulong meets, uint index,
+INLINED void walk_instance(struct packet *eye, struct found *eye_found, const struct last *last, int any,
+                           uint to_lights, __global const uint *opacity, ulong meets, uint index,
                            __global const struct instance *instances, __global const struct node8 *all_nodes,
                            __global const struct triangle8 *all_triangles)
 {
@@ -317,7 +349,7 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any,
 		p[k].t_min = select((packf)(NAN), p[k].t_min, packet_in_range(&p[k])); /* asleep; not in the beam */
 		if (any)
 			continue;
-		found[k].primitive = SCENE_NONE;
+		enter_instance(&found[k], shift[k], last ? &last[k] : 0, index);
 		/* t + shift decides */
 		p[k].t_max += select((packf)(0), 3e-7f * eye[k].t_max, (shift[k] > 0) & (eye_found[k].instance != SCENE_NONE));
 	}
@@ -333,7 +365,7 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, int any,
 			eye[k].t_max = select(eye[k].t_max, (packf)(-INFINITY), p[k].t_max == -INFINITY);
 }
 
-INLINED void walk_top(struct packet *eye, struct found *found, int any, uint to_lights,
+INLINED void walk_top(struct packet *eye, struct found *found, const struct last *last, int any, uint to_lights,
                       __global const uint *opacity, __global const struct node8 *top,
                       __global const uint *instance_list, __global const struct instance *instances,
                       __global const struct node8 *nodes, __global const struct triangle8 *triangles)
@@ -356,7 +388,7 @@ INLINED void walk_top(struct packet *eye, struct found *found, int any, uint to_
 			depth = push_children(stack, depth, eye, any, -1, planes, existing_boxes(&top[task.child.x]),
 			                      top, task.child.x, lanes, towards);
 		for (uint i = 0; i < task.child.y && lanes; i++)
-			walk_instance(eye, found, any, to_lights, opacity, lanes, instance_list[task.child.x + i], instances,
+			walk_instance(eye, found, last, any, to_lights, opacity, lanes, instance_list[task.child.x + i], instances,
 			              nodes, triangles);
 		if (any)
 			awake = awake_lanes(eye);
@@ -428,11 +460,23 @@ KERNEL_OF(float16) void occlude_packet(KERNEL_ARGUMENTS(occlude_wide))
 		return;
 	lanes = load_packets(p, rays, first, n_rays);
 	if (lanes)
-		walk_top(p, nothing, 1, to_lights, opacity, top + top_first, instance_list, instances, nodes, triangles);
+		walk_top(p, nothing, 0, 1, to_lights, opacity, top + top_first, instance_list, instances, nodes, triangles);
 	for (uint k = 0; k < RAYS_PACKETS; k++)
 		lanes &= ~lanes_at(pack_bits(p[k].t_max != -INFINITY), k);
 	for (uint i = 0; i < RAYS_PER_ITEM && first + i < n_rays; i++)
 		occluded[first + i] = (uint)(lanes >> i) & 1u;
+}
+
+/* Load the hits that sixteen rays continue behind. */
+static inline void load_last(struct packet *p, struct last *last, __global const struct hit *hits, uint first, uint n)
+{
+	last->t = p->t_min;
+	p->t_min = fma(fabs(p->t_min), -RAYS_END_SLACK, p->t_min); /* walk_begin */
+	last->instance = last->primitive = SCENE_NONE;
+	for (uint lane = 0; lane < RAYS_PER_PACKET && first + lane < n; lane++) {
+		((uint *)&last->instance)[lane] = hits[first + lane].instance;
+		((uint *)&last->primitive)[lane] = hits[first + lane].primitive;
+	}
 }
 
 KERNEL_OF(float16) void intersect_packet(KERNEL_ARGUMENTS(intersect_wide))
@@ -440,15 +484,18 @@ KERNEL_OF(float16) void intersect_packet(KERNEL_ARGUMENTS(intersect_wide))
 	const uint first = (uint)get_global_id(0) * RAYS_PER_ITEM;
 	struct packet p[RAYS_PACKETS];
 	struct found found[RAYS_PACKETS];
+	struct last behind[RAYS_PACKETS];
 
 	if (first >= n_rays)
 		return;
 	load_packets(p, rays, first, n_rays);
+	for (uint k = 0; k < RAYS_PACKETS && after; k++)
+		load_last(&p[k], &behind[k], last, first + k * RAYS_PER_PACKET, n_rays);
 	for (uint k = 0; k < RAYS_PACKETS; k++) {
 		found[k].b1 = found[k].b2 = 0;
 		found[k].instance = found[k].primitive = SCENE_NONE;
 	}
-	walk_top(p, found, 0, 0, 0, top + top_first, instance_list, instances, nodes, triangles);
+	walk_top(p, found, after ? behind : 0, 0, 0, 0, top + top_first, instance_list, instances, nodes, triangles);
 	for (uint i = 0; i < RAYS_PER_ITEM && first + i < n_rays; i++) {
 		const struct found *f = &found[i / RAYS_PER_PACKET];
 		const uint lane = i % RAYS_PER_PACKET;

@@ -32,6 +32,7 @@ static inline void try_single(struct walk *w, __global const struct triangle *tr
 
 	if (u >= -RAYS_EDGE_SLACK && v >= -RAYS_EDGE_SLACK && u + v <= 1 + RAYS_EDGE_SLACK && t >= w->t_min &&
 	    (t < w->hit.t || (t == w->hit.t && triangle->primitive < w->hit.primitive)) && !(passes & rays_side(inverse)) &&
+	    walk_is_after(w, t, triangle->primitive) &&
 	    RAYS_FLAT * largest(e1x, e1y, e1z) * largest(e2x, e2y, e2z) * (largest(w->dx, w->dy, w->dz) * fabs(inverse)) < 1) {
 		w->hit.t = t;
 		w->hit.b1 = u;
@@ -158,7 +159,8 @@ static inline void walk_compressed(struct walk *w, uint index, int any, uint pas
  * is walked, only the hit of the eye-space ray is kept; the rest is read and computed again, which costs less than the
  * registers.
  */
-INLINED struct hit walk_ray(__global const struct ray *ray, int any, uint to_lights, int is_compressed,
+INLINED struct hit walk_ray(__global const struct ray *ray, int any, uint to_lights, __global const struct hit *last,
+                            int is_compressed,
                             __global const struct node2 *top, __global const uint *instance_list,
                             __global const struct instance *instances, __global const struct node2 *binary,
                             __global const struct node8c *compressed, __global const struct triangle *triangles)
@@ -167,7 +169,7 @@ INLINED struct hit walk_ray(__global const struct ray *ray, int any, uint to_lig
 	struct walk eye;
 	uint depth = 0;
 
-	if (!walk_start(&eye, ray))
+	if (!walk_start(&eye, ray, last != 0))
 		return eye.hit;
 	entry.enter = eye.t_min;
 	entry.child = entry.count = 0;
@@ -177,7 +179,7 @@ INLINED struct hit walk_ray(__global const struct ray *ray, int any, uint to_lig
 			__global const struct instance *instance = &instances[index];
 			struct hit hit = eye.hit;
 			struct walk w;
-			const float shift = walk_enter(&w, &eye, instance);
+			const float shift = walk_enter(&w, &eye, instance, last ? walk_tie(last, index) : 0);
 			const uint passes = rays_passes(instance->flags, to_lights);
 
 			if (is_compressed)
@@ -185,7 +187,7 @@ INLINED struct hit walk_ray(__global const struct ray *ray, int any, uint to_lig
 				                triangles + instance->triangle8c_first);
 			else
 				walk_binary(&w, index, any, passes, binary + instance->node2_first, triangles + instance->triangle_first);
-			walk_start(&eye, ray);
+			walk_start(&eye, ray, last != 0);
 			eye.hit = hit;
 			walk_leave(&eye, &w, shift);
 			if (any && eye.hit.instance != SCENE_NONE)
@@ -202,7 +204,7 @@ __kernel void occlude_binary(KERNEL_ARGUMENTS(occlude_binary))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		occluded[i] = walk_ray(&rays[i], 1, to_lights, 0, top + top_first, instance_list, instances, nodes, 0,
+		occluded[i] = walk_ray(&rays[i], 1, to_lights, 0, 0, top + top_first, instance_list, instances, nodes, 0,
 		                       triangles)
 		                      .instance != SCENE_NONE;
 }
@@ -212,7 +214,8 @@ __kernel void intersect_binary(KERNEL_ARGUMENTS(intersect_binary))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		hits[i] = walk_ray(&rays[i], 0, 0, 0, top + top_first, instance_list, instances, nodes, 0, triangles);
+		hits[i] = walk_ray(&rays[i], 0, 0, after ? &last[i] : 0, 0, top + top_first, instance_list, instances, nodes, 0,
+		                   triangles);
 }
 
 __kernel void occlude_compressed(KERNEL_ARGUMENTS(occlude_compressed))
@@ -220,7 +223,7 @@ __kernel void occlude_compressed(KERNEL_ARGUMENTS(occlude_compressed))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		occluded[i] = walk_ray(&rays[i], 1, to_lights, 1, top + top_first, instance_list, instances, 0, nodes,
+		occluded[i] = walk_ray(&rays[i], 1, to_lights, 0, 1, top + top_first, instance_list, instances, 0, nodes,
 		                       triangles)
 		                      .instance != SCENE_NONE;
 }
@@ -230,5 +233,6 @@ __kernel void intersect_compressed(KERNEL_ARGUMENTS(intersect_compressed))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		hits[i] = walk_ray(&rays[i], 0, 0, 1, top + top_first, instance_list, instances, 0, nodes, triangles);
+		hits[i] = walk_ray(&rays[i], 0, 0, after ? &last[i] : 0, 1, top + top_first, instance_list, instances, 0, nodes,
+		                   triangles);
 }

@@ -7,7 +7,7 @@
 #include "kernels/rays/wide.h"
 
 static inline void walk_instance(struct walk *eye, uint index, int any, uint to_lights, __global const uint *opacity,
-                                 __global const struct instance *instances, __global const struct node8 *nodes,
+                                 uint tie, __global const struct instance *instances, __global const struct node8 *nodes,
                                  __global const struct triangle8 *triangles)
 {
 	__global const struct instance *instance = &instances[index];
@@ -16,14 +16,15 @@ static inline void walk_instance(struct walk *eye, uint index, int any, uint to_
 
 	if (any && instance->opacity == OPACITY_PASSES)
 		return;
-	shift = walk_enter(&w, eye, instance);
+	shift = walk_enter(&w, eye, instance, tie);
 	walk_subtree(&w, (uint2)(0, 0), index, any, ignored_of(instance, any, to_lights, opacity),
 	             nodes + instance->node8_first, triangles + instance->triangle8_first);
 	walk_leave(eye, &w, shift);
 }
 
 static inline struct hit walk_ray(__global const struct ray *ray, int any, uint to_lights,
-                                  __global const uint *opacity, __global const struct node8 *top,
+                                  __global const uint *opacity, __global const struct hit *last,
+                                  __global const struct node8 *top,
                                   __global const uint *instance_list, __global const struct instance *instances,
                                   __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
@@ -31,7 +32,7 @@ static inline struct hit walk_ray(__global const struct ray *ray, int any, uint 
 	uint depth = 0;
 	struct walk w;
 
-	if (!walk_start(&w, ray))
+	if (!walk_start(&w, ray, last != 0))
 		return w.hit;
 	stack[depth].enter = w.t_min;
 	stack[depth].child = stack[depth].count = 0;
@@ -49,7 +50,10 @@ static inline struct hit walk_ray(__global const struct ray *ray, int any, uint 
 			continue;
 		}
 		for (uint i = 0; i < entry.count; i++) {
-			walk_instance(&w, instance_list[entry.child + i], any, to_lights, opacity, instances, nodes, triangles);
+			const uint index = instance_list[entry.child + i];
+
+			walk_instance(&w, index, any, to_lights, opacity, last ? walk_tie(last, index) : 0, instances, nodes,
+			              triangles);
 			if (any && w.hit.instance != SCENE_NONE)
 				return w.hit;
 		}
@@ -62,7 +66,7 @@ KERNEL_OF(float8) void occlude_wide(KERNEL_ARGUMENTS(occlude_wide))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		occluded[i] = walk_ray(&rays[i], 1, to_lights, opacity, top + top_first, instance_list, instances, nodes,
+		occluded[i] = walk_ray(&rays[i], 1, to_lights, opacity, 0, top + top_first, instance_list, instances, nodes,
 		                       triangles)
 		                      .instance != SCENE_NONE;
 }
@@ -72,5 +76,6 @@ KERNEL_OF(float8) void intersect_wide(KERNEL_ARGUMENTS(intersect_wide))
 	const uint i = (uint)get_global_id(0);
 
 	if (i < n_rays)
-		hits[i] = walk_ray(&rays[i], 0, 0, 0, top + top_first, instance_list, instances, nodes, triangles);
+		hits[i] = walk_ray(&rays[i], 0, 0, 0, after ? &last[i] : 0, top + top_first, instance_list, instances, nodes,
+		                   triangles);
 }

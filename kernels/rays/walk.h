@@ -15,6 +15,9 @@ struct walk {
 	uint row_x, row_y, row_z; /* offsets in floats in a node8 of the rows of near planes */
 	float t_min;
 	struct hit hit; /* hit.t: end of the ray so far */
+	float after;    /* t of the hit, in eye space, that the ray continues behind; -infinity: none */
+	float shift;    /* what to add to t for eye space */
+	uint tie;       /* the least primitive that counts at that t: of an instance; in eye space see walk_tie */
 };
 
 /*
@@ -65,12 +68,31 @@ static inline int in_range(const struct walk *w)
 	return fabs(w->ox * w->ix) < RAYS_RANGE && fabs(w->oy * w->iy) < RAYS_RANGE && fabs(w->oz * w->iz) < RAYS_RANGE;
 }
 
-/* A ray in eye space without a hit. @return 0 if it hits nothing by definition */
-static inline int walk_start(struct walk *w, __global const struct ray *ray)
+/* 1 if a triangle's hit comes after the one that the ray continues behind (kernels/rays/rays.h). */
+static inline int walk_is_after(const struct walk *w, float t, uint primitive)
+{
+	return t + w->shift > w->after || (t + w->shift == w->after && primitive >= w->tie);
+}
+
+/* The least primitive of an instance that comes after a hit at the same t. */
+static inline uint walk_tie(__global const struct hit *last, uint instance)
+{
+	return instance > last->instance ? 0 : instance == last->instance ? last->primitive + 1 : SCENE_NONE;
+}
+
+/* Where a ray that continues behind a hit starts: rounding can put a surface at the same t in front of its box. */
+static inline float walk_begin(float t)
+{
+	return fma(fabs(t), -RAYS_END_SLACK, t);
+}
+
+/* A ray in eye space without a hit. after: 1: it continues behind one. @return 0 if it hits nothing by definition */
+static inline int walk_start(struct walk *w, __global const struct ray *ray, uint after)
 {
 	w->ox = ray->o[0], w->oy = ray->o[1], w->oz = ray->o[2];
 	w->dx = ray->d[0], w->dy = ray->d[1], w->dz = ray->d[2];
-	w->t_min = ray->t_min;
+	w->t_min = after ? walk_begin(ray->t_min) : ray->t_min;
+	w->after = after ? ray->t_min : -INFINITY;
 	w->hit.t = ray->t_max;
 	w->hit.b1 = w->hit.b2 = 0;
 	w->hit.instance = w->hit.primitive = SCENE_NONE;
@@ -92,8 +114,9 @@ static inline float walk_shift(__global const struct instance *instance, const s
 	return shift * length > RAYS_FAR * instance->radius && isfinite(shift) ? shift : 0;
 }
 
-/* The ray in an instance's object space. @return how far it was moved along its direction */
-static inline float walk_enter(struct walk *w, const struct walk *eye, __global const struct instance *instance)
+/* The ray in an instance's object space. tie: walk_tie. @return how far it was moved along its direction */
+static inline float walk_enter(struct walk *w, const struct walk *eye, __global const struct instance *instance,
+                               uint tie)
 {
 	__global const float *m = instance->obj_from_eye;
 	float shift;
@@ -107,6 +130,9 @@ static inline float walk_enter(struct walk *w, const struct walk *eye, __global 
 	shift = walk_shift(instance, w);
 	w->ox = fma(shift, w->dx, w->ox), w->oy = fma(shift, w->dy, w->oy), w->oz = fma(shift, w->dz, w->oz);
 	w->t_min = eye->t_min - shift;
+	w->after = eye->after;
+	w->shift = shift;
+	w->tie = tie;
 	w->hit.t = eye->hit.t - shift;
 	if (shift > 0 && eye->hit.instance != SCENE_NONE)
 		w->hit.t += 3e-7f * eye->hit.t; /* t + shift decides */

@@ -112,6 +112,7 @@ static inline void try_block(struct walk *w, __global const struct triangle8 *bl
 		                       ((const float *)&v)[lane]))
 			continue;
 		if ((at < w->hit.t || (at == w->hit.t && block->primitive[lane] < w->hit.primitive)) &&
+		    (any || walk_is_after(w, at, block->primitive[lane])) &&
 		    RAYS_FLAT * e1 * e2 * (largest(w->dx, w->dy, w->dz) * fabs(((const float *)&inverse)[lane])) < 1) {
 			w->hit.t = at;
 			w->hit.b1 = ((const float *)&u)[lane];

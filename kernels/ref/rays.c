@@ -21,10 +21,11 @@ struct args {
 	const void *nodes, *triangles;
 	enum tree tree;
 	const uint32_t *opacity; /* NULL: it is not known which surfaces let all light pass */
+	const struct hit *last;  /* what the rays continue behind; NULL: nothing */
 };
 #define ARGS_OF(a, kind) \
 	{ (a)->n_rays, (a)->rays, (a)->top_first, (a)->top, (a)->instance_list, (a)->instances, (a)->nodes, (a)->triangles, \
-	kind, NULL }
+	kind, NULL, NULL }
 
 /* State of a ray during traversal. */
 struct walk {
@@ -34,6 +35,9 @@ struct walk {
 	struct hit hit; /* hit.t: end of the ray so far */
 	int any;        /* 1: any hit will do */
 	uint32_t to_lights, passes, opacity; /* as in kernels/rays/rays.h and opacity.h; for the instance that it walks */
+	const struct hit *last; /* what the ray continues behind, or NULL */
+	float after, shift;     /* t of that hit, in eye space; what to add to t for eye space */
+	uint32_t tie;           /* the least primitive of the instance that counts at that t */
 };
 
 static int done(const struct walk *w)
@@ -87,6 +91,7 @@ static void try_triangle(struct walk *w, const float v0[3], const float e1[3], c
 	/* A determinant of 0 makes u and v NaN or infinite, which fails here. */
 	if (u >= -RAYS_EDGE_SLACK && v >= -RAYS_EDGE_SLACK && u + v <= 1 + RAYS_EDGE_SLACK && t >= w->t_min &&
 	    (t < w->hit.t || (t == w->hit.t && primitive < w->hit.primitive)) &&
+	    (t + w->shift > w->after || (t + w->shift == w->after && primitive >= w->tie)) &&
 	    RAYS_FLAT * largest(e1) * largest(e2) * (largest(w->d) * fabsf(inverse)) < 1 &&
 	    !ignores(w, primitive, rays_side(inverse), u, v))
 		w->hit = (struct hit){ t, u, v, instance, primitive };
@@ -239,6 +244,12 @@ static float far_shift(const struct instance *instance, const float o[3], const 
 	return shift * length > RAYS_FAR * instance->radius && isfinite(shift) ? shift : 0;
 }
 
+/* The least primitive of an instance that comes after a hit at the same t. */
+static uint32_t tie_of(const struct hit *last, uint32_t instance)
+{
+	return instance > last->instance ? 0 : instance == last->instance ? last->primitive + 1 : SCENE_NONE;
+}
+
 /* Enter an instance's object space, walk its tree, and return. */
 static void walk_instance(struct walk *w, uint32_t instance_index)
 {
@@ -262,6 +273,8 @@ static void walk_instance(struct walk *w, uint32_t instance_index)
 		w->hit.t += 3e-7f * eye.hit.t; /* t + shift decides */
 	w->passes = rays_passes(instance->flags, w->to_lights);
 	w->opacity = instance->opacity;
+	w->shift = shift;
+	w->tie = w->last ? tie_of(w->last, instance_index) : 0;
 	if (in_range)
 		walk_blas(w, instance_index);
 	w->hit.t += shift;
@@ -323,8 +336,12 @@ static void walk_top_binary(struct walk *w)
 static struct hit walk_ray(const struct args *args, uint32_t index, int any, uint32_t to_lights)
 {
 	const struct ray *ray = &args->rays[index];
-	struct walk w = { .args = args, .t_min = ray->t_min, .any = any, .to_lights = to_lights };
+	const struct hit *last = args->last ? &args->last[index] : NULL;
+	struct walk w = { .args = args, .t_min = ray->t_min, .any = any, .to_lights = to_lights, .last = last };
 
+	w.after = last ? ray->t_min : -INFINITY;
+	if (last)
+		w.t_min = fmaf(fabsf(ray->t_min), -RAYS_END_SLACK, ray->t_min);
 	w.hit = (struct hit){ ray->t_max, 0, 0, SCENE_NONE, SCENE_NONE };
 	if (!(ray->t_min <= ray->t_max))
 		return w.hit;
@@ -355,8 +372,9 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any, uin
 \
 	void intersect_##list##_c(const struct intersect_##list##_arguments *a, size_t first, size_t last) \
 	{ \
-		const struct args args = ARGS_OF(a, tree); \
+		struct args args = ARGS_OF(a, tree); \
 \
+		args.last = a->after ? a->last : NULL; \
 		for (size_t i = first; i < last && i < a->n_rays; i++) \
 			a->hits[i] = walk_ray(&args, (uint32_t)i, 0, 0); \
 	}

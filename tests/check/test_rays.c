@@ -138,60 +138,74 @@ static int is_ignored(const struct instance *instance, uint32_t primitive, doubl
 	return opacity_passes(words, instance->opacity, word, (float)b1, (float)b2) != 0;
 }
 
-/* All triangles of all instances, in the object space of each and in double precision. words: of the instances'
- * opacity; NULL: no ray knows it */
+/* Where a ray meets a triangle's plane, in double precision. */
+struct meeting {
+	double t, b1, b2, det, edge; /* edge: distance to the triangle's edge, negative outside, in weights */
+};
+
+static struct meeting meet(const struct random_scene *s, const struct ray *ray, uint32_t instance, uint32_t primitive)
+{
+	const struct scene_mesh *mesh = s->mesh_list[s->scene_instances[instance].mesh];
+	const float *m = s->instances[instance].obj_from_eye;
+	double o[3], d[3], e1[3], e2[3], v[3], p[3], q[3];
+	struct meeting got;
+
+	for (int row = 0; row < 3; row++, m += 4) {
+		o[row] = (double)m[0] * ray->o[0] + (double)m[1] * ray->o[1] + (double)m[2] * ray->o[2] + m[3];
+		d[row] = (double)m[0] * ray->d[0] + (double)m[1] * ray->d[1] + (double)m[2] * ray->d[2];
+	}
+	for (int a = 0; a < 3; a++) {
+		const float *p0 = mesh->position + 4 * (size_t)mesh->index[3 * primitive];
+
+		e1[a] = (double)mesh->position[4 * (size_t)mesh->index[3 * primitive + 1] + (size_t)a] - p0[a];
+		e2[a] = (double)mesh->position[4 * (size_t)mesh->index[3 * primitive + 2] + (size_t)a] - p0[a];
+		v[a] = o[a] - p0[a];
+	}
+	for (int a = 0; a < 3; a++)
+		p[a] = d[(a + 1) % 3] * e2[(a + 2) % 3] - d[(a + 2) % 3] * e2[(a + 1) % 3];
+	got.det = e1[0] * p[0] + e1[1] * p[1] + e1[2] * p[2];
+	got.b1 = (v[0] * p[0] + v[1] * p[1] + v[2] * p[2]) / got.det;
+	for (int a = 0; a < 3; a++)
+		q[a] = v[(a + 1) % 3] * e1[(a + 2) % 3] - v[(a + 2) % 3] * e1[(a + 1) % 3];
+	got.b2 = (d[0] * q[0] + d[1] * q[1] + d[2] * q[2]) / got.det;
+	got.t = (e2[0] * q[0] + e2[1] * q[1] + e2[2] * q[2]) / got.det;
+	got.edge = fmin(fmin(got.b1, got.b2), 1 - got.b1 - got.b2);
+	return got;
+}
+
+/* How close a meeting is to an edge, or to an end of the ray: too close to decide. */
+static double margin_of(const struct meeting *m, const struct ray *ray)
+{
+	if (!(m->edge > -1e-3 && m->t > -1e9 && m->t < 1e9))
+		return 1;
+	return fmin(fabs(m->edge), fmin(fabs(m->t - ray->t_min), fabs(m->t - ray->t_max)) / (1 + fabs(m->t)));
+}
+
+/* The nearest of all triangles of all instances. words: of the instances' opacity; NULL: no ray knows it. margin: how
+ * close to the next decision: too close below 1e-4 */
 static struct hit hit_all(const struct random_scene *s, const struct ray *ray, int to_lights, const uint32_t *words,
                           double *margin)
 {
 	struct hit best = { ray->t_max, 0, 0, SCENE_NONE, SCENE_NONE };
 
 	*margin = 1;
-	for (uint32_t k = 0; k < INSTANCES; k++) {
-		const struct scene_mesh *mesh = s->mesh_list[s->scene_instances[k].mesh];
-		const float *m = s->instances[k].obj_from_eye;
-		double o[3], d[3];
+	for (uint32_t k = 0; k < INSTANCES; k++)
+		for (uint32_t i = 0; i < s->mesh_list[s->scene_instances[k].mesh]->primitive_count; i++) {
+			const struct meeting m = meet(s, ray, k, i);
 
-		for (int row = 0; row < 3; row++, m += 4) {
-			o[row] = (double)m[0] * ray->o[0] + (double)m[1] * ray->o[1] + (double)m[2] * ray->o[2] + m[3];
-			d[row] = (double)m[0] * ray->d[0] + (double)m[1] * ray->d[1] + (double)m[2] * ray->d[2];
-		}
-		for (uint32_t i = 0; i < mesh->primitive_count; i++) {
-			double e1[3], e2[3], v[3], p[3], q[3], det, b1, b2, t, edge;
-
-			for (int a = 0; a < 3; a++) {
-				const float *p0 = mesh->position + 4 * (size_t)mesh->index[3 * i];
-
-				e1[a] = (double)mesh->position[4 * (size_t)mesh->index[3 * i + 1] + (size_t)a] - p0[a];
-				e2[a] = (double)mesh->position[4 * (size_t)mesh->index[3 * i + 2] + (size_t)a] - p0[a];
-				v[a] = o[a] - p0[a];
-			}
-			for (int a = 0; a < 3; a++)
-				p[a] = d[(a + 1) % 3] * e2[(a + 2) % 3] - d[(a + 2) % 3] * e2[(a + 1) % 3];
-			det = e1[0] * p[0] + e1[1] * p[1] + e1[2] * p[2];
-			b1 = (v[0] * p[0] + v[1] * p[1] + v[2] * p[2]) / det;
-			for (int a = 0; a < 3; a++)
-				q[a] = v[(a + 1) % 3] * e1[(a + 2) % 3] - v[(a + 2) % 3] * e1[(a + 1) % 3];
-			b2 = (d[0] * q[0] + d[1] * q[1] + d[2] * q[2]) / det;
-			t = (e2[0] * q[0] + e2[1] * q[1] + e2[2] * q[2]) / det;
-			edge = fmin(fmin(b1, b2), 1 - b1 - b2);
-			/*
-			 * How close any candidate is to an edge, an end of the ray or the nearest hit: too close to
-			 * decide.
-			 */
-			if (edge > -1e-3 && t > -1e9 && t < 1e9)
-				*margin = fmin(*margin, fmin(fabs(edge), fmin(fabs(t - ray->t_min), fabs(t - ray->t_max)) / (1 + fabs(t))));
-			if (to_lights && s->instances[k].flags & (det > 0 ? INSTANCE_PASS_COUNTER : INSTANCE_PASS_CLOCKWISE))
+			*margin = fmin(*margin, margin_of(&m, ray));
+			if (to_lights && s->instances[k].flags & (m.det > 0 ? INSTANCE_PASS_COUNTER : INSTANCE_PASS_CLOCKWISE))
 				continue;
-			if (edge > -1e-3 && words && is_ignored(&s->instances[k], i, det, b1, b2, to_lights, words, margin))
+			if (m.edge > -1e-3 && words &&
+			    is_ignored(&s->instances[k], i, m.det, m.b1, m.b2, to_lights, words, margin))
 				continue;
-			if (edge >= 0 && t >= ray->t_min && t <= ray->t_max) {
+			if (m.edge >= 0 && m.t >= ray->t_min && m.t <= ray->t_max) {
 				if (best.instance != SCENE_NONE)
-					*margin = fmin(*margin, fabs(t - best.t) / (1 + fabs(t)));
-				if (t < best.t || best.instance == SCENE_NONE)
-					best = (struct hit){ (float)t, (float)b1, (float)b2, k, i };
+					*margin = fmin(*margin, fabs(m.t - best.t) / (1 + fabs(m.t)));
+				if (m.t < best.t || best.instance == SCENE_NONE)
+					best = (struct hit){ (float)m.t, (float)m.b1, (float)m.b2, k, i };
 			}
 		}
-	}
 	return best;
 }
 
@@ -396,6 +410,124 @@ START_TEST(rays_ignore_what_passes)
 }
 END_TEST
 
+/* Number of hits of a ray with all triangles. */
+static uint32_t count_all(const struct random_scene *s, const struct ray *ray, double *margin)
+{
+	uint32_t n = 0;
+
+	*margin = 1;
+	for (uint32_t k = 0; k < INSTANCES; k++)
+		for (uint32_t i = 0; i < s->mesh_list[s->scene_instances[k].mesh]->primitive_count; i++) {
+			const struct meeting m = meet(s, ray, k, i);
+
+			*margin = fmin(*margin, margin_of(&m, ray));
+			n += m.edge >= 0 && m.t >= ray->t_min && m.t <= ray->t_max;
+		}
+	return n;
+}
+
+/* 1 if a hit comes after another, as rays that continue behind that one find them (kernels/rays/rays.h). */
+static int comes_after(const struct hit *hit, const struct hit *last)
+{
+	if (hit->t != last->t)
+		return hit->t > last->t;
+	return hit->instance > last->instance || (hit->instance == last->instance && hit->primitive > last->primitive);
+}
+
+#define MOST_HITS 64
+
+/* Follow rays from hit to hit to their ends. counts: [N_RAYS] how many hits. @return number of hits at the t of the one
+ * before, of another instance */
+static uint32_t follow(struct random_scene *s, struct device *dev, const struct ray *from, enum way way,
+                       uint32_t *counts)
+{
+	struct traverse_trees trees = { 0 };
+	struct ray *rays = malloc(N_RAYS * sizeof(*rays));
+	struct hit *hits = calloc(N_RAYS, sizeof(*hits)), *last = calloc(N_RAYS, sizeof(*last));
+	struct device_buffer *b[] = { make_buffer(dev, from, N_RAYS * sizeof(*rays)),
+		                      make_buffer(dev, hits, N_RAYS * sizeof(*hits)),
+		                      make_buffer(dev, last, N_RAYS * sizeof(*last)) };
+	struct traverse_rays r = { .space = &s->spaces[0], .n = N_RAYS, .rays.buffer = b[0], .hits.buffer = b[1] };
+	uint32_t left = N_RAYS, together = 0, round;
+
+	memcpy(rays, from, N_RAYS * sizeof(*rays));
+	memset(counts, 0, N_RAYS * sizeof(*counts));
+	ck_assert_int_eq(traverse_upload_pools(dev, s->accel, &trees), 0);
+	ck_assert_int_eq(traverse_upload_tlases(dev, s->accel, s->instances, INSTANCES, &trees), 0);
+	for (round = 0; left && round < MOST_HITS; round++) {
+		ck_assert_int_eq(traverse_rays(dev, ways[way].kernels[1], &trees, &r), 0);
+		ck_assert_int_eq(device_read(dev, b[1], 0, hits, N_RAYS * sizeof(*hits)), 0);
+		left = 0;
+		for (uint32_t i = 0; i < N_RAYS; i++) {
+			if (hits[i].instance == SCENE_NONE) {
+				rays[i].t_min = 1, rays[i].t_max = 0; /* nothing more */
+				continue;
+			}
+			ck_assert_msg(!round || comes_after(&hits[i], &last[i]),
+			              "%s: ray %u: hit %u is t %.9g of %u %u, the one before %.9g of %u %u", ways[way].name, i,
+			              round, hits[i].t, hits[i].instance, hits[i].primitive, last[i].t, last[i].instance,
+			              last[i].primitive);
+			together += round && hits[i].t == last[i].t && hits[i].instance != last[i].instance;
+			rays[i].t_min = hits[i].t;
+			counts[i]++;
+			left++;
+		}
+		memcpy(last, hits, N_RAYS * sizeof(*hits));
+		r.last.buffer = b[2];
+		ck_assert_int_eq(device_write(dev, b[0], 0, rays, N_RAYS * sizeof(*rays)), 0);
+		ck_assert_int_eq(device_write(dev, b[2], 0, last, N_RAYS * sizeof(*last)), 0);
+	}
+	ck_assert_msg(!left, "%s: %u rays without an end", ways[way].name, left);
+	for (size_t i = 0; i < sizeof(b) / sizeof(b[0]); i++)
+		device_release(dev, &b[i]);
+	traverse_release(dev, &trees);
+	free(rays);
+	free(hits);
+	free(last);
+	return together;
+}
+
+static void check_following(struct device *dev, void *user)
+{
+	const struct known *known = user;
+	static uint32_t counts[N_RAYS];
+
+	for (enum way way = 0; way < N_WAYS; way++) {
+		const uint32_t together = follow(known->s, dev, known->rays, way, counts);
+		uint32_t compared = 0, several = 0;
+
+		for (uint32_t i = 0; i < N_RAYS; i++) {
+			double margin = 1;
+			const uint32_t want = is_usable(&known->rays[i]) ? count_all(known->s, &known->rays[i], &margin) : 0;
+
+			if (margin < 1e-4 || i % 97 == 47)
+				continue;
+			ck_assert_msg(counts[i] == want, "ray %u (%s): %u hits one after the other, all triangles give %u", i,
+			              ways[way].name, counts[i], want);
+			compared++;
+			several += want > 1;
+		}
+		ck_assert_uint_gt(compared, N_RAYS / 2);
+		ck_assert_uint_gt(several, N_RAYS / 20);
+		ck_assert_uint_gt(together, N_RAYS / 20);
+	}
+}
+
+/* Rays that continue behind each hit find every triangle once, also where two instances are at the same place. */
+START_TEST(rays_meet_each_surface_once)
+{
+	struct random_scene *s = random_scene_create(seed_of_run);
+	struct known known = { s, make_rays(s), NULL, 0 };
+
+	memcpy(s->instances[MESHES].eye_from_obj, s->instances[0].eye_from_obj, sizeof(s->instances[0].eye_from_obj));
+	memcpy(s->instances[MESHES].obj_from_eye, s->instances[0].obj_from_eye, sizeof(s->instances[0].obj_from_eye));
+	random_scene_rebuild(s, ACCEL_BVH);
+	on_each_device(check_following, &known);
+	free(known.rays);
+	random_scene_free(s);
+}
+END_TEST
+
 /* The tree must not matter: the nearest hit is the same to the bit, including ties. */
 START_TEST(hits_depend_on_no_tree)
 {
@@ -535,6 +667,7 @@ int main(void)
 	if (n_kinds == 2) {
 		tcase_add_loop_test(devices, kernels_agree_with_twins, 0, 2 + 2 * (int)(sizeof(hard_seeds) / sizeof(hard_seeds[0])));
 		tcase_add_test(devices, rays_ignore_what_passes);
+		tcase_add_test(devices, rays_meet_each_surface_once);
 	}
 	tcase_add_loop_test(tests, hits_depend_on_no_tree, 0, n_kinds);
 	tcase_add_loop_test(tests, any_hit_and_nearest_hit_decide_alike, 0, n_kinds);

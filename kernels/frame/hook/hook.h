@@ -410,7 +410,7 @@ static inline void hook_walk_item(const struct hook_walk_arguments *a, uint32_t 
 	if (!hook_ignores(&at, &way, hook_row(a->parameters, a->words, &p)))
 		return;
 	a->next_rays[item] = a->rays[item];
-	a->next_rays[item].t_min = ray_beyond(hit.t);
+	a->next_rays[item].t_min = hit.t;
 	a->next_paths[item] = a->paths[item];
 	a->counts[item] = 1u;
 }

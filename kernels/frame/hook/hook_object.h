@@ -36,15 +36,16 @@ struct hook_found {
 	struct vec4 coordinates; /* texture coordinates */
 };
 
-/* Call the hook's intersection for an object, if the ray meets its box. @return 1: it reported a hit before `end` */
-static inline int hook_try(GLOBAL const struct hook_object *object, GLOBAL const struct ray *ray, float end,
+/* Call the hook's intersection for an object, if the ray meets its box between `begin` and `end`. @return 1: it
+ * reported a hit there */
+static inline int hook_try(GLOBAL const struct hook_object *object, GLOBAL const struct ray *ray, float begin, float end,
                            GLOBAL const float *row, struct hook_found *found)
 {
 	const struct vec3 o = hook_move(object->obj_from_eye, v3_load(ray->o)),
 			  d = hook_turn(object->obj_from_eye, v3_load(ray->d));
-	float enter = ray->t_min, leave = end;
+	float enter = begin, leave = end;
 
-	if (!(ray->t_min <= end) || !hook_meets_box(object->lower, object->upper, o, d, &enter, &leave))
+	if (!(begin <= end) || !hook_meets_box(object->lower, object->upper, o, d, &enter, &leave))
 		return 0;
 #if defined(__OPENCL_VERSION__) && defined(HOOK_INTERSECTION)
 	{
@@ -53,7 +54,7 @@ static inline int hook_try(GLOBAL const struct hook_object *object, GLOBAL const
 
 		crossing.ray.origin = hook_float4(o);
 		crossing.ray.direction = hook_float4(d);
-		crossing.least = ray->t_min;
+		crossing.least = begin;
 		crossing.most = end;
 		crossing.enter = enter;
 		crossing.leave = leave;
@@ -62,7 +63,7 @@ static inline int hook_try(GLOBAL const struct hook_object *object, GLOBAL const
 		found->t = r.weight.x;
 		found->normal = hook_vec3(r.direction);
 		found->coordinates = v4(r.color.x, r.color.y, r.color.z, r.color.w);
-		return r.what & RELUME_SURFACE && found->t >= ray->t_min && found->t < end;
+		return r.what & RELUME_SURFACE && found->t >= begin && found->t < end;
 	}
 #else
 	(void)row;
@@ -132,6 +133,8 @@ static inline void hook_place_triangle(const struct hook_intersect_arguments *a,
 static inline void hook_intersect_item(const struct hook_intersect_arguments *a, uint32_t item)
 {
 	GLOBAL struct hit *hit = &a->hits[item];
+	/* The same object must not be found again. */
+	const float begin = a->after ? ray_beyond(a->rays[item].t_min) : a->rays[item].t_min;
 	uint32_t nearest = SCENE_NONE;
 	struct hook_found best, found;
 
@@ -145,7 +148,7 @@ static inline void hook_intersect_item(const struct hook_intersect_arguments *a,
 	best.coordinates = v4(0.0f, 0.0f, 0.0f, 1.0f);
 	found = best;
 	for (uint32_t i = 0u; i < a->n_objects; i++)
-		if (hook_try(&a->objects[i], &a->rays[item], best.t,
+		if (hook_try(&a->objects[i], &a->rays[item], begin, best.t,
 		             a->parameters + (size_t)a->objects[i].material * a->words, &found)) {
 			best = found;
 			nearest = i;
@@ -160,7 +163,7 @@ static inline void hook_occlude_item(const struct hook_occlude_arguments *a, uin
 	uint32_t stopped = a->alone ? 0u : a->occluded[item];
 
 	for (uint32_t i = 0u; i < a->n_objects && !stopped; i++)
-		stopped = hook_try(&a->objects[i], &a->rays[item], a->rays[item].t_max,
+		stopped = hook_try(&a->objects[i], &a->rays[item], a->rays[item].t_min, a->rays[item].t_max,
 		                   a->parameters + (size_t)a->objects[i].material * a->words, &found) != 0;
 	a->occluded[item] = stopped;
 }

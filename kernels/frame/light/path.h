@@ -22,6 +22,13 @@ static inline void gather_paths_item(const struct gather_paths_arguments *a, uin
 	}
 }
 
+/* gather_hits: moves the hits of the same items to the places of their next rays, one each. */
+static inline void gather_hits_item(const struct gather_hits_arguments *a, uint32_t item)
+{
+	if (a->counts[item])
+		a->last[a->places[item]] = a->hits[item];
+}
+
 /* Destination of a point's next rays. */
 struct branches {
 	GLOBAL struct ray *rays;

@@ -8,6 +8,7 @@
 
 #include "kernels/frame/light/sample.h"
 #include "kernels/frame/light/transparency.h"
+#include "kernels/rays/rays.h"
 
 /* t_min of a ray to a light that starts inside the body that it lights: a negative zero as a marker (shadow_walk). */
 #define SHADOW_WITHIN (-0.0f)
@@ -330,6 +331,21 @@ static inline int shadow_leaves_body(const struct tables *t, const struct hit *h
 	return (p.material->lighting || p.material->program_normals) && v3_dot(plane, sum) * v3_dot(plane, d) > 0.0f;
 }
 
+/* 1 if a hit is on the edge of its triangle, as far as rays can tell. */
+static inline int shadow_is_on_edge(const struct hit *hit)
+{
+	return M_MIN(M_MIN(hit->b1, hit->b2), 1.0f - hit->b1 - hit->b2) <= RAYS_EDGE_SLACK;
+}
+
+/* 1 if a ray that goes through an edge has met the same surface in the triangle beside it. */
+static inline int shadow_is_met(const struct hit *hit, GLOBAL const struct hit *last)
+{
+	struct hit before = *last;
+
+	return before.instance == hit->instance && hit->t - before.t <= RAYS_END_SLACK * hit->t && shadow_is_on_edge(hit) &&
+	       shadow_is_on_edge(&before);
+}
+
 /*
  * shadow_walk: continues past the surface that a ray to a light hit, or ends the ray. A path's kind is 1 while the ray
  * may still be inside the body that it lights.
@@ -349,12 +365,12 @@ static inline void shadow_walk_item(const struct shadow_walk_arguments *a, uint3
 	}
 	if (w.kind && shadow_leaves_body(t, &hit, &a->rays[item]))
 		w.kind = 0u;
-	else
+	else if (!(a->after && shadow_is_met(&hit, &a->last[item])))
 		weight = v3_mul(weight, transparency_of_hit(t, &hit, &a->rays[item], a->to_lights));
 	if (!(v3_most(weight) > a->least))
 		return;
 	a->next_rays[item] = a->rays[item];
-	a->next_rays[item].t_min = ray_beyond(hit.t);
+	a->next_rays[item].t_min = hit.t; /* other surfaces may be there as well */
 	a->next_paths[item] = w;
 	v3_store(a->next_paths[item].weight, weight);
 	a->counts[item] = 1u;

@@ -69,6 +69,7 @@ int traverse_rays(struct device *dev, enum kernel kernel, const struct traverse_
 {
 	const uint32_t packets = (r->n + RAYS_PER_ITEM - 1) / RAYS_PER_ITEM;
 	const union buffer_uint opacity = t->opacity.buffer ? t->opacity : t->instance_list;
+	const uint32_t after = r->last.buffer != NULL;
 
 #define RAYS(list, top_of, nodes_of, triangles_of, ...) \
 	LAUNCH(list, .n_rays = r->n, .rays = r->rays, .top_first = r->space->top_of##_first, .top = t->top_of, \
@@ -79,7 +80,8 @@ int traverse_rays(struct device *dev, enum kernel kernel, const struct traverse_
 	RAYS(list, top_of, nodes_of, triangles_of, .to_lights = r->to_lights, .occluded = r->occluded)
 #define OCCLUDE_WIDE \
 	RAYS(occlude_wide, top8, nodes8, triangles8, .opacity = opacity, .to_lights = r->to_lights, .occluded = r->occluded)
-#define INTERSECT(list, top_of, nodes_of, triangles_of) RAYS(list, top_of, nodes_of, triangles_of, .hits = r->hits)
+#define INTERSECT(list, top_of, nodes_of, triangles_of) \
+	RAYS(list, top_of, nodes_of, triangles_of, .after = after, .last = after ? r->last : r->hits, .hits = r->hits)
 
 	switch (kernel) {
 	case KERNEL_occlude_packet:

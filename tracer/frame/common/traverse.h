@@ -50,6 +50,7 @@ struct traverse_rays {
 	uint32_t n, to_lights;      /* to_lights: 1: KERNEL_occlude_* ignores the sides that transmit light */
 	union buffer_ray rays;
 	union buffer_uint occluded; /* KERNEL_occlude_* */
+	union buffer_hit last;      /* KERNEL_intersect_*: hits that the rays continue behind; NULL: none */
 	union buffer_hit hits;      /* KERNEL_intersect_* */
 };
 

@@ -202,7 +202,7 @@ int hook_objects_intersect(const struct frame *frame, const struct traverse_rays
 		tr->dev, rays->n,
 		LAUNCH(hook_intersect, .tables = frame_tables(tr), .views = frame->tr->placed.views,
 	               .objects = b->objects, .n_objects = frame->objects.n, .rays = rays->rays,
-	               .parameters = b->parameters, .words = frame->options->hook->words,
+	               .after = rays->last.buffer != NULL, .parameters = b->parameters, .words = frame->options->hook->words,
 	               .alone = !rays->space->n_nodes, .first_slot = (uint32_t)whose * frame->objects.room,
 	               .n = rays->n, .hits = rays->hits, .made = frame->tr->placed.vertices,
 	               .made_coords = frame->tr->placed.texcoords, .windows = frame->tr->placed.windows));

@@ -156,6 +156,8 @@ static int start_walk(const struct frame *frame, const struct list *list, union 
 	if (!err)
 		err = launch_reserve(tr->dev, tr->light->shadow_hits, *n);
 	if (!err)
+		err = launch_reserve(tr->dev, tr->light->shadow_last, *n);
+	if (!err)
 		err = launch_reserve(tr->dev, tr->light->next_counts, *n);
 	if (err)
 		return err;
@@ -172,6 +174,19 @@ static int walk_hooks(const struct frame *frame, const struct list *list, uint32
 	return hooks_walk(frame, secondary_transport(frame->options), &walks);
 }
 
+/* The rays that go on, and the hits that they continue behind. */
+static int gather_walks(const struct frame *frame, const struct list *list, uint32_t *n)
+{
+	struct light_buffers *b = frame->tr->light;
+	const uint32_t from = *n;
+	int err = gather_list(frame, list, 1, n);
+
+	return err || *n == 0 ? err :
+	                        launch_gather_hits(frame->tr->dev, from,
+	                                           LAUNCH(gather_hits, .hits = b->shadow_hits, .counts = b->next_counts,
+	                                                  .places = b->places, .n = from, .last = b->shadow_last));
+}
+
 /* Continue those of the rays that shadow_sum left as stopped, through transmitting surfaces one after another. */
 static int walk_layers(const struct frame *frame, const struct accel_space *space, const struct light_rays *to,
                        float weight)
@@ -183,21 +198,23 @@ static int walk_layers(const struct frame *frame, const struct accel_space *spac
 	int err = start_walk(frame, &list, to->rays, to->n, weight, &n);
 
 	for (uint32_t i = 0; i < MOST_LAYERS && n && !err; i++) {
+		const union buffer_hit none = { 0 };
+
 		err = intersect(frame, HOOK_RAYS_TO_LIGHTS,
 		                (struct traverse_rays){ .space = space, .n = n, .rays = *list.rays,
-		                                        .hits = b->shadow_hits });
+		                                        .last = i ? b->shadow_last : none, .hits = b->shadow_hits });
 		if (!err)
 			err = launch_shadow_walk(tr->dev, n,
 			                         LAUNCH(shadow_walk, .tables = frame_tables(tr), .hits = b->shadow_hits,
 			                                .rays = *list.rays, .paths = *list.paths,
 			                                .to_lights = to->to_lights, .least = weight * SHADOW_LEAST,
-			                                .n = n, .visibility = to->visibility,
+			                                .after = i > 0, .last = b->shadow_last, .n = n, .visibility = to->visibility,
 			                                .next_rays = *list.next_rays, .next_paths = *list.next_paths,
 			                                .counts = b->next_counts));
 		if (!err && hooks_has(frame, HOOK_ANY_HIT))
 			err = walk_hooks(frame, &list, n);
 		if (!err)
-			err = gather_list(frame, &list, 1, &n);
+			err = gather_walks(frame, &list, &n);
 	}
 	return err;
 }
