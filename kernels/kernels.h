@@ -80,7 +80,7 @@ typedef float element_float;
 #define ARGUMENTS_OCCLUDE(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
 	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
 	VALUE(uint, to_lights) AND()        /* 1: rays to lights, which pass through some sides: INSTANCE_PASS_* */ \
-	OUT(uint, occluded)                 /* 1 if anything stops the ray, else 0 */
+	OUT(uint, occluded)                 /* 1 if anything stops the ray, else 0; 2: surfaces have to be sampled */
 #define ARGUMENTS_INTERSECT(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
 	ARGUMENTS_RAYS(IN, OUT, VALUE, GROUP, AND, top_node, node, triangle) \
 	VALUE(uint, after) AND()            /* 1: rays continue behind the hits at their t_min; 0: those are any buffer */ \
@@ -276,9 +276,9 @@ typedef float element_float;
 #define ARGUMENTS_shadow_sum(IN, OUT, VALUE, GROUP, AND) \
 	IN(ray, rays) AND() VALUE(float, weight) AND() \
 	VALUE(uint, first) AND()            /* 1: visibility is not initialised yet */ \
-	VALUE(uint, through) AND()          /* 1: some surface lets light through */ \
+	VALUE(uint, through) AND()          /* 1: surfaces that stop a ray may let light through */ \
 	VALUE(uint, n) AND() \
-	OUT(uint, occluded) AND()           /* also read; rays with light left continue */ \
+	OUT(uint, occluded) AND()           /* also read; 1 if the ray continues, else 0 */ \
 	OUT(float, visibility)              /* [3] per ray; also read */
 #define ARGUMENTS_shadow_start(IN, OUT, VALUE, GROUP, AND) \
 	IN(uint, occluded) AND() \

@@ -374,10 +374,6 @@ SHARED_SIZE(struct emitter, 12);
 #define PATH_NEAR 3u
 
 /* Maximum number of rays that leave a fragment, and a hit: mirrored, transmitted, scattered. */
-/* The share of a ray's light to a light that counts as none. It remains behind opaque surfaces whose interpolated alpha
- * is not exactly 1. */
-#define SHADOW_LEAST (1.0f / 65536.0f)
-
 #define PATHS_PER_FRAGMENT 3u
 #define PATHS_PER_HIT 2u
 

@@ -17,13 +17,14 @@
  */
 #define PACKET_FEW 2
 
-/* The hits of a packet's rays, at their t_max: the nearest so far. Not stored for any-hit queries, where a ray that
- * hits gets t_max -infinity. */
+/* The hits of a packet's rays, at their t_max: the nearest so far. Any-hit queries only store which lanes hit surfaces
+ * that have to be sampled; a ray that is stopped gets t_max -infinity. */
 struct found {
 	packf b1, b2;
 	packu instance, primitive;
 	packf after, shift; /* within an instance: as in struct walk */
 	packu tie;
+	uint asking; /* any-hit queries: a bit for each lane */
 };
 
 /* The hits that a packet's rays continue behind. */
@@ -56,9 +57,9 @@ static inline void take_found(const struct found *f, uint lane, struct walk *w)
 
 /*
  * Walk lanes of a packet through a subtree one by one. @return the finished lanes: those of any-hit queries that have a
- * hit
+ * hit that stops them
  */
-INLINED uint walk_lanes(struct packet *p, struct found *found, int any, struct ignored ignored, uint lanes, uint2 start,
+INLINED uint walk_lanes(struct packet *p, struct found *found, int any, struct known known, uint lanes, uint2 start,
                         __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	uint done = 0;
@@ -72,7 +73,10 @@ INLINED uint walk_lanes(struct packet *p, struct found *found, int any, struct i
 		w.hit.instance = w.hit.primitive = SCENE_NONE;
 		if (!any)
 			take_found(found, lane, &w);
-		walk_subtree(&w, start, 0, any, ignored, nodes, triangles);
+		w.asks = 0;
+		walk_subtree(&w, start, 0, any, known, nodes, triangles);
+		if (any && w.asks)
+			found->asking |= 1u << lane;
 		if (w.hit.instance == SCENE_NONE)
 			continue;
 		((float *)&p->t_max)[lane] = any ? -INFINITY : w.hit.t;
@@ -182,7 +186,7 @@ static inline void mean_direction(const struct packet *p, float towards[3])
 
 /* Packets with only a few rays left in a subtree walk them through it one by one. @return lanes without these; finished
  * ones are no longer awake */
-INLINED ulong walk_few(struct packet *p, struct found *found, int any, struct ignored ignored, uint2 start, ulong lanes,
+INLINED ulong walk_few(struct packet *p, struct found *found, int any, struct known known, uint2 start, ulong lanes,
                        ulong *awake, __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	for (uint k = 0; k < RAYS_PACKETS; k++) {
@@ -190,35 +194,43 @@ INLINED ulong walk_few(struct packet *p, struct found *found, int any, struct ig
 
 		if (few == 0 || popcount(few) > PACKET_FEW)
 			continue;
-		*awake &= ~lanes_at(walk_lanes(&p[k], &found[k], any, ignored, few, start, nodes, triangles), k);
+		*awake &= ~lanes_at(walk_lanes(&p[k], &found[k], any, known, few, start, nodes, triangles), k);
 		lanes &= ~lanes_at(few, k);
 	}
 	return lanes;
 }
 
-/* The lanes, out of those that hit a primitive, for whom its map lets all light pass there. */
-static inline packi passed_lanes(struct ignored i, uint word, packi hit, const packf *b1, const packf *b2)
+/* The lanes, out of those that hit a primitive, that it stops. found->asking receives those that have to sample it. */
+static inline packi stopped_lanes(struct found *found, struct known k, uint word, packi hit, const packf *b1,
+                                  const packf *b2)
 {
-	uint passed = 0;
+	uint stopped = 0, lanes = pack_bits(hit);
 
-	for (uint lanes = pack_bits(hit); lanes; lanes &= lanes - 1) {
-		const uint lane = popcount((lanes & -lanes) - 1);
-
-		if (opacity_passes(i.words, i.opacity, word, ((const float *)b1)[lane], ((const float *)b2)[lane]))
-			passed |= lanes & -lanes;
+	if ((word & 3) == OPACITY_STOPS)
+		return hit;
+	if ((word & 3) == OPACITY_ASK) {
+		found->asking |= lanes;
+		return 0;
 	}
-	return lanes_pack(passed);
+	for (; lanes; lanes &= lanes - 1) {
+		const uint lane = popcount((lanes & -lanes) - 1), bit = lanes & -lanes;
+		const uint does = opacity_at(k.words, k.opacity, word, ((const float *)b1)[lane], ((const float *)b2)[lane]);
+
+		stopped |= does == OPACITY_STOPS ? bit : 0;
+		found->asking |= does == OPACITY_ASK ? bit : 0;
+	}
+	return lanes_pack(stopped);
 }
 
-WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int any, struct ignored ignored,
+WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int any, struct known known,
                                      __global const struct triangle8 *blocks, uint n, ulong lanes)
 {
 	for (uint k = 0; k < RAYS_PACKETS; k++)
 		for (uint i = 0; i < n && lanes_of(lanes, k); i++)
 			for (uint lane = 0; lane < 8 && blocks[i].primitive[lane] != SCENE_NONE; lane++) {
 				const packu primitive = blocks[i].primitive[lane];
-				const uint word = any ? opacity_word(ignored.words, ignored.opacity, blocks[i].primitive[lane]) : 0;
-				const uint passes = ignored.passes | opacity_sides(word, ignored.to_lights);
+				const uint word = any ? opacity_word(known.words, known.opacity, blocks[i].primitive[lane]) : 0;
+				const uint passes = known.passes | opacity_sides(word, known.to_lights);
 				packf t, b1, b2, t_eye;
 				packi hit;
 
@@ -226,8 +238,7 @@ WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int 
 					continue;
 				hit = packet_triangle(&p[k], lanes_of(lanes, k), passes, &blocks[i], lane, &t, &b1, &b2);
 				if (any) {
-					if ((word & 3) == OPACITY_MAP)
-						hit &= ~passed_lanes(ignored, word, hit, &b1, &b2);
+					hit = stopped_lanes(&found[k], known, word, hit, &b1, &b2);
 					p[k].t_max = select(p[k].t_max, (packf)(-INFINITY), hit);
 					continue;
 				}
@@ -243,7 +254,7 @@ WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int 
 }
 
 /* Walk one instance's tree with packets, of one octant or of several (-1). */
-INLINED void walk_blas(struct packet *p, struct found *found, int any, struct ignored ignored, int octant,
+INLINED void walk_blas(struct packet *p, struct found *found, int any, struct known known, int octant,
                        __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	const struct planes planes = octant_planes(octant);
@@ -259,14 +270,14 @@ INLINED void walk_blas(struct packet *p, struct found *found, int any, struct ig
 	if (!any)
 		mean_direction(p, towards);
 	for (;;) {
-		lanes = walk_few(p, found, any, ignored, at, lanes, &awake, nodes, triangles);
+		lanes = walk_few(p, found, any, known, at, lanes, &awake, nodes, triangles);
 		if (lanes && at.y == 0)
 			depth = push_children(stack, depth, p, any, octant, planes,
 			                      octant < 0 ? existing_boxes(&nodes[at.x]) : beam_meets(&beam, &nodes[at.x], planes), nodes,
 			                      at.x,
 			                      lanes, towards);
 		else if (lanes)
-			try_blocks(p, found, any, ignored, &triangles[at.x], at.y, lanes);
+			try_blocks(p, found, any, known, &triangles[at.x], at.y, lanes);
 		if (any && lanes && at.y)
 			awake = awake_lanes(p);
 		do {
@@ -331,10 +342,10 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, const st
 	struct found found[RAYS_PACKETS];
 	struct packet p[RAYS_PACKETS];
 	packf shift[RAYS_PACKETS];
-	const struct ignored ignored = ignored_of(instance, any, to_lights, opacity);
+	const struct known known = known_of(instance, any, to_lights, opacity);
 	int octant;
 
-	if (ignored.opacity == OPACITY_PASSES)
+	if (known.opacity == OPACITY_PASSES)
 		return;
 	for (uint k = 0; k < RAYS_PACKETS; k++) {
 		const int met = lanes_of(meets, k) != 0;
@@ -347,6 +358,7 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, const st
 		p[k].t_min = met ? eye[k].t_min - shift[k] : 1;
 		p[k].t_max = met ? eye[k].t_max - shift[k] : -INFINITY;
 		p[k].t_min = select((packf)(NAN), p[k].t_min, packet_in_range(&p[k])); /* asleep; not in the beam */
+		found[k].asking = 0;
 		if (any)
 			continue;
 		enter_instance(&found[k], shift[k], last ? &last[k] : 0, index);
@@ -355,14 +367,16 @@ INLINED void walk_instance(struct packet *eye, struct found *eye_found, const st
 	}
 	octant = packet_octant(p, RAYS_PACKETS);
 	if (octant < 0)
-		walk_blas(p, found, any, ignored, -1, nodes, triangles);
+		walk_blas(p, found, any, known, -1, nodes, triangles);
 	else
-		walk_blas(p, found, any, ignored, octant, nodes, triangles);
+		walk_blas(p, found, any, known, octant, nodes, triangles);
 	for (uint k = 0; k < RAYS_PACKETS; k++)
-		if (!any)
+		if (!any) {
 			leave_instance(&eye[k], &eye_found[k], &p[k], &found[k], shift[k], index);
-		else if (lanes_of(meets, k))
+		} else if (lanes_of(meets, k)) {
 			eye[k].t_max = select(eye[k].t_max, (packf)(-INFINITY), p[k].t_max == -INFINITY);
+			eye_found[k].asking |= found[k].asking;
+		}
 }
 
 INLINED void walk_top(struct packet *eye, struct found *found, const struct last *last, int any, uint to_lights,
@@ -453,18 +467,23 @@ KERNEL_OF(float16) void occlude_packet(KERNEL_ARGUMENTS(occlude_wide))
 {
 	const uint first = (uint)get_global_id(0) * RAYS_PER_ITEM;
 	struct packet p[RAYS_PACKETS];
-	struct found nothing[RAYS_PACKETS];
-	ulong lanes;
+	struct found found[RAYS_PACKETS];
+	ulong lanes, asking = 0;
 
 	if (first >= n_rays)
 		return;
 	lanes = load_packets(p, rays, first, n_rays);
-	if (lanes)
-		walk_top(p, nothing, 0, 1, to_lights, opacity, top + top_first, instance_list, instances, nodes, triangles);
 	for (uint k = 0; k < RAYS_PACKETS; k++)
+		found[k].asking = 0;
+	if (lanes)
+		walk_top(p, found, 0, 1, to_lights, opacity, top + top_first, instance_list, instances, nodes, triangles);
+	for (uint k = 0; k < RAYS_PACKETS; k++) {
 		lanes &= ~lanes_at(pack_bits(p[k].t_max != -INFINITY), k);
+		asking |= lanes_at(found[k].asking, k);
+	}
+	asking &= ~lanes;
 	for (uint i = 0; i < RAYS_PER_ITEM && first + i < n_rays; i++)
-		occluded[first + i] = (uint)(lanes >> i) & 1u;
+		occluded[first + i] = ((uint)(lanes >> i) & 1u) | ((uint)(asking >> i) & 1u) << 1;
 }
 
 /* Load the hits that sixteen rays continue behind. */

@@ -15,6 +15,7 @@ struct walk {
 	uint row_x, row_y, row_z; /* offsets in floats in a node8 of the rows of near planes */
 	float t_min;
 	struct hit hit; /* hit.t: end of the ray so far */
+	uint asks;      /* any-hit queries: 1 after a hit that has to be sampled (kernels/rays/opacity.h) */
 	float after;    /* t of the hit, in eye space, that the ray continues behind; -infinity: none */
 	float shift;    /* what to add to t for eye space */
 	uint tie;       /* the least primitive that counts at that t: of an instance; in eye space see walk_tie */
@@ -94,6 +95,7 @@ static inline int walk_start(struct walk *w, __global const struct ray *ray, uin
 	w->t_min = after ? walk_begin(ray->t_min) : ray->t_min;
 	w->after = after ? ray->t_min : -INFINITY;
 	w->hit.t = ray->t_max;
+	w->asks = 0;
 	w->hit.b1 = w->hit.b2 = 0;
 	w->hit.instance = w->hit.primitive = SCENE_NONE;
 	if (!(w->t_min <= w->hit.t) || !isfinite(w->ox) || !isfinite(w->oy) || !isfinite(w->oz) || !isfinite(w->dx) ||
@@ -136,6 +138,7 @@ static inline float walk_enter(struct walk *w, const struct walk *eye, __global 
 	w->hit.t = eye->hit.t - shift;
 	if (shift > 0 && eye->hit.instance != SCENE_NONE)
 		w->hit.t += 3e-7f * eye->hit.t; /* t + shift decides */
+	w->asks = 0;
 	w->hit.b1 = w->hit.b2 = 0;
 	w->hit.instance = w->hit.primitive = SCENE_NONE;
 	prepare(w);
@@ -147,6 +150,7 @@ static inline float walk_enter(struct walk *w, const struct walk *eye, __global 
 /* Return to eye space with an instance's hit if it is nearer, or as near and of a lower instance. */
 static inline void walk_leave(struct walk *eye, struct walk *w, float shift)
 {
+	eye->asks |= w->asks;
 	w->hit.t += shift;
 	if (w->hit.instance != SCENE_NONE &&
 	    (eye->hit.instance == SCENE_NONE || w->hit.t < eye->hit.t ||

@@ -52,37 +52,39 @@ static inline uint push_boxes(struct entry *stack, uint depth, uint bits, const 
 	return depth;
 }
 
-/* The triangles of an instance that an any-hit query ignores: by side (rays_passes), and by kernels/rays/opacity.h. */
-struct ignored {
+/* What an any-hit query knows of an instance's triangles: by side (rays_passes), and by kernels/rays/opacity.h. */
+struct known {
 	__global const uint *words;
 	uint opacity, passes, to_lights;
 };
 
-static inline struct ignored ignored_of(__global const struct instance *instance, int any, uint to_lights,
-                                        __global const uint *words)
+static inline struct known known_of(__global const struct instance *instance, int any, uint to_lights,
+                                    __global const uint *words)
 {
-	struct ignored i;
+	struct known k;
 
-	i.words = words;
-	i.opacity = any ? instance->opacity : OPACITY_STOPS;
-	i.passes = any ? rays_passes(instance->flags, to_lights) : 0;
-	i.to_lights = to_lights;
-	return i;
+	k.words = words;
+	k.opacity = any ? instance->opacity : OPACITY_STOPS;
+	k.passes = any ? rays_passes(instance->flags, to_lights) : 0;
+	k.to_lights = to_lights;
+	return k;
 }
 
-/* 1 if an any-hit query ignores a hit of a primitive. inverse: of the determinant */
-static inline int ignores_hit(struct ignored i, uint primitive, float inverse, float b1, float b2)
+/* What a primitive does to an any-hit query's ray: OPACITY_STOPS, _PASSES or _ASK. inverse: of the determinant */
+static inline uint known_opacity(struct known k, uint primitive, float inverse, float b1, float b2)
 {
-	const uint word = opacity_word(i.words, i.opacity, primitive);
+	const uint word = opacity_word(k.words, k.opacity, primitive);
 
-	return ((i.passes | opacity_sides(word, i.to_lights)) & rays_side(inverse)) ||
-	       opacity_passes(i.words, i.opacity, word, b1, b2);
+	if ((k.passes | opacity_sides(word, k.to_lights)) & rays_side(inverse))
+		return OPACITY_PASSES;
+	return opacity_at(k.words, k.opacity, word, b1, b2);
 }
 
 /* Moeller and Trumbore on eight triangles. w->hit receives the nearest hit or, among equals, that of the lowest
- * primitive. ignored: for any-hit queries */
+ * primitive; of any-hit queries, one that stops the ray. known: for any-hit queries, which set w->asks to 1 after a hit
+ * that has to be sampled */
 static inline void try_block(struct walk *w, __global const struct triangle8 *block, uint instance, int any,
-                             struct ignored ignored)
+                             struct known known)
 {
 	const float8 e1x = vload8(0, block->e1[0]), e1y = vload8(0, block->e1[1]), e1z = vload8(0, block->e1[2]);
 	const float8 e2x = vload8(0, block->e2[0]), e2y = vload8(0, block->e2[1]), e2z = vload8(0, block->e2[2]);
@@ -108,12 +110,17 @@ static inline void try_block(struct walk *w, __global const struct triangle8 *bl
 		const float e2 = largest(block->e2[0][lane], block->e2[1][lane], block->e2[2][lane]);
 
 		bits &= bits - 1;
-		if (any && ignores_hit(ignored, block->primitive[lane], ((const float *)&inverse)[lane], ((const float *)&u)[lane],
-		                       ((const float *)&v)[lane]))
-			continue;
 		if ((at < w->hit.t || (at == w->hit.t && block->primitive[lane] < w->hit.primitive)) &&
 		    (any || walk_is_after(w, at, block->primitive[lane])) &&
 		    RAYS_FLAT * e1 * e2 * (largest(w->dx, w->dy, w->dz) * fabs(((const float *)&inverse)[lane])) < 1) {
+			if (any) {
+				const uint does = known_opacity(known, block->primitive[lane], ((const float *)&inverse)[lane],
+				                                ((const float *)&u)[lane], ((const float *)&v)[lane]);
+
+				w->asks |= does == OPACITY_ASK;
+				if (does != OPACITY_STOPS)
+					continue;
+			}
 			w->hit.t = at;
 			w->hit.b1 = ((const float *)&u)[lane];
 			w->hit.b2 = ((const float *)&v)[lane];
@@ -126,7 +133,7 @@ static inline void try_block(struct walk *w, __global const struct triangle8 *bl
 }
 
 /* Walk down from a node (y: 0) or a leaf of y blocks. */
-static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int any, struct ignored ignored,
+static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int any, struct known known,
                                 __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	struct entry stack[RAYS_WIDE_STACK], entry;
@@ -151,7 +158,7 @@ static inline void walk_subtree(struct walk *w, uint2 start, uint instance, int 
 			depth = push_boxes(stack, depth, bits, &enter, any, node);
 		}
 		for (uint i = 0; i < entry.count; i++) {
-			try_block(w, &triangles[entry.child + i], instance, any, ignored);
+			try_block(w, &triangles[entry.child + i], instance, any, known);
 			if (any && w->hit.instance != SCENE_NONE)
 				return;
 		}

@@ -20,7 +20,7 @@ struct args {
 	const struct instance *instances;
 	const void *nodes, *triangles;
 	enum tree tree;
-	const uint32_t *opacity; /* NULL: it is not known which surfaces let all light pass */
+	const uint32_t *opacity; /* NULL: nothing is known of surfaces */
 	const struct hit *last;  /* what the rays continue behind; NULL: nothing */
 };
 #define ARGS_OF(a, kind) \
@@ -34,6 +34,7 @@ struct walk {
 	float t_min;
 	struct hit hit; /* hit.t: end of the ray so far */
 	int any;        /* 1: any hit will do */
+	uint32_t asks;  /* 1: it hit a surface that has to be sampled */
 	uint32_t to_lights, passes, opacity; /* as in kernels/rays/rays.h and opacity.h; for the instance that it walks */
 	const struct hit *last; /* what the ray continues behind, or NULL */
 	float after, shift;     /* t of that hit, in eye space; what to add to t for eye space */
@@ -62,16 +63,23 @@ static float largest(const float v[3])
 	return fmaxf(fmaxf(fabsf(v[0]), fabsf(v[1])), fabsf(v[2]));
 }
 
-/* 1 if an any-hit query ignores a hit on a side of a primitive. */
-static int ignores(const struct walk *w, uint32_t primitive, uint32_t side, float u, float v)
+/* 1 if a ray goes on behind a hit on a side of a primitive. Any-hit queries set w->asks after one that has to be
+ * sampled. */
+static int ignores(struct walk *w, uint32_t primitive, uint32_t side, float u, float v)
 {
 	const uint32_t *words = w->args->opacity;
-	uint32_t word;
+	uint32_t word, does;
 
+	if (w->passes & side)
+		return 1;
 	if (!w->any || !words)
-		return (w->passes & side) != 0;
+		return 0;
 	word = opacity_word(words, w->opacity, primitive);
-	return ((w->passes | opacity_sides(word, w->to_lights)) & side) || opacity_passes(words, w->opacity, word, u, v);
+	if (opacity_sides(word, w->to_lights) & side)
+		return 1;
+	does = opacity_at(words, w->opacity, word, u, v);
+	w->asks |= does == OPACITY_ASK;
+	return does != OPACITY_STOPS;
 }
 
 static void try_triangle(struct walk *w, const float v0[3], const float e1[3], const float e2[3], uint32_t instance,
@@ -333,7 +341,7 @@ static void walk_top_binary(struct walk *w)
 	}
 }
 
-static struct hit walk_ray(const struct args *args, uint32_t index, int any, uint32_t to_lights)
+static struct walk walk_ray(const struct args *args, uint32_t index, int any, uint32_t to_lights)
 {
 	const struct ray *ray = &args->rays[index];
 	const struct hit *last = args->last ? &args->last[index] : NULL;
@@ -344,19 +352,25 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any, uin
 		w.t_min = fmaf(fabsf(ray->t_min), -RAYS_END_SLACK, ray->t_min);
 	w.hit = (struct hit){ ray->t_max, 0, 0, SCENE_NONE, SCENE_NONE };
 	if (!(ray->t_min <= ray->t_max))
-		return w.hit;
+		return w;
 	for (int a = 0; a < 3; a++) {
 		if (!isfinite(ray->o[a]) || !isfinite(ray->d[a]))
-			return w.hit;
+			return w;
 		w.o[a] = ray->o[a];
 	}
 	if (!set_direction(&w, ray->d))
-		return w.hit;
+		return w;
 	if (args->tree == TREE_ROWS)
 		walk_top_rows(&w);
 	else
 		walk_top_binary(&w);
-	return w.hit;
+	return w;
+}
+
+/* The result of an any-hit query. */
+static uint32_t occluded_of(struct walk w)
+{
+	return w.hit.instance != SCENE_NONE ? 1 : w.asks * 2;
 }
 
 /* The twins of one argument list: any hit, and nearest hit. words: opacity, or NULL */
@@ -367,7 +381,7 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any, uin
 \
 		args.opacity = words; \
 		for (size_t i = first; i < last && i < a->n_rays; i++) \
-			a->occluded[i] = walk_ray(&args, (uint32_t)i, 1, a->to_lights).instance != SCENE_NONE; \
+			a->occluded[i] = occluded_of(walk_ray(&args, (uint32_t)i, 1, a->to_lights)); \
 	} \
 \
 	void intersect_##list##_c(const struct intersect_##list##_arguments *a, size_t first, size_t last) \
@@ -376,7 +390,7 @@ static struct hit walk_ray(const struct args *args, uint32_t index, int any, uin
 \
 		args.last = a->after ? a->last : NULL; \
 		for (size_t i = first; i < last && i < a->n_rays; i++) \
-			a->hits[i] = walk_ray(&args, (uint32_t)i, 0, 0); \
+			a->hits[i] = walk_ray(&args, (uint32_t)i, 0, 0).hit; \
 	}
 TWINS(wide, TREE_ROWS, a->opacity)
 TWINS(binary, TREE_BINARY, NULL)

@@ -290,15 +290,16 @@ static inline void ao_ray_item(const struct ao_ray_arguments *a, uint32_t item)
 /* --- Results ----------------------------------------------------------------------------------------------------- */
 
 /*
- * shadow_sum: visibility of lights: rays that nothing stopped add `weight`. first: of this list. Of the others, only
- * those that may continue remain set.
+ * shadow_sum: visibility of lights: rays that nothing stopped add `weight`. first: of this list. Of the others, those
+ * that may continue are set to 1: all of them (through), or those whose surfaces have to be sampled
+ * (kernels/rays/opacity.h) or may belong to the body that the ray lights.
  */
 static inline void shadow_sum_item(const struct shadow_sum_arguments *a, uint32_t item)
 {
 	float share = a->occluded[item] ? 0.0f : a->weight;
 
-	if (a->occluded[item] && !a->through)
-		a->occluded[item] = (uint32_t)shadow_begins_within(&a->rays[item]);
+	if (a->occluded[item])
+		a->occluded[item] = a->through || a->occluded[item] == 2u || shadow_begins_within(&a->rays[item]) ? 1u : 0u;
 
 	for (uint32_t c = 0u; c < 3u; c++)
 		a->visibility[item * 3u + c] = a->first ? share : a->visibility[item * 3u + c] + share;

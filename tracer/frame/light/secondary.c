@@ -3,11 +3,13 @@
 #include <stdlib.h>
 
 #include "base/err.h"
+#include "kernels/rays/opacity.h"
 #include "tracer/frame/hook/hook_objects.h"
 #include "tracer/frame/hook/hooks.h"
 #include "tracer/frame/light/buffers.h"
 #include "tracer/frame/light/emitters.h"
 #include "tracer/frame/light/scan.h"
+#include "tracer/frame/place/opacity.h"
 
 /* Most transmitting surfaces in a row that a ray to a light may pass, besides its bounces. */
 #define MOST_LAYERS 32u
@@ -207,7 +209,7 @@ static int walk_layers(const struct frame *frame, const struct accel_space *spac
 			err = launch_shadow_walk(tr->dev, n,
 			                         LAUNCH(shadow_walk, .tables = frame_tables(tr), .hits = b->shadow_hits,
 			                                .rays = *list.rays, .paths = *list.paths,
-			                                .to_lights = to->to_lights, .least = weight * SHADOW_LEAST,
+			                                .to_lights = to->to_lights, .least = weight * OPACITY_LEAST,
 			                                .after = i > 0, .last = b->shadow_last, .n = n, .visibility = to->visibility,
 			                                .next_rays = *list.next_rays, .next_paths = *list.next_paths,
 			                                .counts = b->next_counts));
@@ -224,7 +226,8 @@ static int ask(const struct frame *frame, const struct accel_space *space, const
                uint32_t samples)
 {
 	struct light_buffers *b = frame->tr->light;
-	const int through = frame->prepared.has_transparency || hooks_has(frame, HOOK_ANY_HIT);
+	const int asks = hooks_has(frame, HOOK_ANY_HIT), transparent = frame->prepared.has_transparency,
+		  through = asks || (transparent && !opacity_is_known(frame, space));
 	float weight = 1.0f / (float)samples;
 	int err = occlude(frame, space, r, b->occluded);
 
@@ -233,7 +236,7 @@ static int ask(const struct frame *frame, const struct accel_space *space, const
 		                        LAUNCH(shadow_sum, .rays = r->rays, .weight = weight, .first = sample == 0,
 		                               .through = (uint32_t)through, .n = r->n, .occluded = b->occluded,
 		                               .visibility = r->visibility));
-	return err || !(r->to_lights || through) ? err : walk_layers(frame, space, r, weight);
+	return err || !(r->to_lights || transparent || asks) ? err : walk_layers(frame, space, r, weight);
 }
 
 int secondary_reserve_rays(const struct frame *frame, size_t n_rays, union buffer_float *visibility,

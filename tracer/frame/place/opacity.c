@@ -4,7 +4,9 @@
 
 #include "base/err.h"
 #include "base/hash.h"
+#include "kernels/frame/light/transparency.h"
 #include "kernels/rays/opacity.h"
+#include "tracer/frame/hook/hook_objects.h"
 #include "tracer/frame/place/opacity_cells.h"
 #include "tracer/frame/place/opacity_sides.h"
 #include "tracer/frame/place/opacity_words.h"
@@ -17,24 +19,36 @@ struct source {
 	struct opacity_blocks *blocks; /* [n_textures]; made when they are first needed */
 };
 
-/* 1 if an instance lets all light pass, as transparency_of_hit finds everywhere. */
-static int passes_all(const struct scene_material *m)
+int opacity_is_known(const struct frame *frame, const struct accel_space *space)
 {
-	return m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_FILM) ||
-	       (m->blend && !m->depth_write && !(m->surface.transmit > 0) && !(m->surface.hidden & SCENE_SOLID));
+	return frame_in_packets(frame) && !hook_objects_in(frame, space);
 }
 
-/* 1 if nothing but alpha and the side that a ray meets decides where an instance lets all light pass. */
+/* The opacity of a whole instance, as transparency_of_hit finds it. */
+static uint32_t opacity_of(const struct instance *instance, const struct scene_material *m)
+{
+	struct scene_material rest = *m;
+
+	if (instance->flags & (INSTANCE_PASS_COUNTER | INSTANCE_PASS_CLOCKWISE)) /* the kernels know its sides */
+		rest.surface.hidden &= ~SCENE_ONE_SIDED;
+	if (transparency_is_none(&rest))
+		return OPACITY_STOPS;
+	if (m->surface.hidden & (SCENE_HIDDEN_FROM_LIGHTS | SCENE_FILM))
+		return OPACITY_PASSES;
+	if (m->blend && !m->depth_write && !(m->surface.transmit > 0) && !(m->surface.hidden & SCENE_SOLID))
+		return OPACITY_PASSES;
+	return OPACITY_ASK;
+}
+
+/* 1 if only alpha, and the side that a ray meets, decide what an instance's triangles let pass. */
 static int has_words(const struct scene *scene, const struct instance *instance)
 {
 	const struct scene_instance *from = &scene->instances[instance->scene_instance];
 	const struct scene_material *m = &scene->materials[from->material];
-	const int passes_sides = instance->flags & (INSTANCE_PASS_COUNTER | INSTANCE_PASS_CLOCKWISE);
 
 	return instance->flags & INSTANCE_SECONDARY && !(instance->flags & (INSTANCE_BAKED | INSTANCE_SCREEN)) &&
 	       !(m->surface.transmit > 0) && !m->clip_plane_mask && m->polygon_stipple == SCENE_NONE && !m->unclamped &&
-	       !m->floats && !m->program && scene->meshes[from->mesh]->kind == SCENE_TRIANGLES &&
-	       (m->alpha_test || m->blend || (m->surface.hidden & SCENE_ONE_SIDED && !passes_sides));
+	       !m->floats && !m->program && scene->meshes[from->mesh]->kind == SCENE_TRIANGLES;
 }
 
 /* --- Words ------------------------------------------------------------------------------------------------------- */
@@ -126,7 +140,7 @@ static size_t choose_items(struct opacity_met *met, struct pool_item *items, siz
 	return chosen;
 }
 
-/* Give words to instances that let light pass in parts. */
+/* Give words to instances whose surfaces have to be sampled, as far as something is known of them. */
 static int place_words(struct frame *frame, struct source *sources, uint32_t n, struct opacity_blocks *blocks)
 {
 	struct pool_item *items = calloc(n + (size_t)1, sizeof(*items));
@@ -172,8 +186,8 @@ int opacity_place(struct frame *frame)
 		const struct scene_instance *from = &scene->instances[instance->scene_instance];
 		const struct scene_material *m = &scene->materials[from->material];
 
-		instance->opacity = passes_all(m) ? OPACITY_PASSES : OPACITY_STOPS;
-		if (!instance->opacity && has_words(scene, instance))
+		instance->opacity = opacity_of(instance, m);
+		if (instance->opacity == OPACITY_ASK && has_words(scene, instance))
 			sources[n++] = (struct source){
 				.surface = { scene, scene->meshes[from->mesh], m, &scene->currents[from->current], opacity_unit(scene, m),
 				             NULL },

@@ -1,7 +1,7 @@
 /*
- * The surfaces of a frame that let all light pass, found before rays to lights are traced (kernels/rays/opacity.h):
- * whole instances, sides of triangles, and, where a texture decides, cells of triangles in maps. Maps depend on meshes,
- * textures and materials, and are kept on the device from frame to frame.
+ * The opacity of a frame's surfaces, found before rays to lights are traced (kernels/rays/opacity.h): some stop all
+ * rays or let all pass; where a texture decides, triangles have maps. Maps depend on meshes, textures and materials,
+ * and are kept on the device from frame to frame.
  */
 #pragma once
 
@@ -12,3 +12,6 @@
  * @return 0, ERR_MEMORY or ERR_SYSTEM (reported)
  */
 int opacity_place(struct frame *frame);
+
+/** 1 if the device's kernels know what the surfaces of a space let pass. */
+int opacity_is_known(const struct frame *frame, const struct accel_space *space);

@@ -5,10 +5,14 @@
 
 #include "gl_tokens.h"
 #include "kernels/gl/combine.h"
+#include "kernels/rays/opacity.h"
 
 /* How far coordinates on a device may be from those computed here: in texels, and as a share of them. */
 #define MARGIN (1.0f / 64)
 #define MARGIN_SHARE 4e-6f
+
+/* An alpha from here on transmits less than OPACITY_LEAST, with room for rounding. */
+#define FULL (1 - OPACITY_LEAST / 4)
 
 static const struct opacity_range anything = { 0, 1 };
 
@@ -199,30 +203,38 @@ static struct opacity_range through_unit(const struct scene_unit *unit, uint32_t
 	return times(previous, sample);
 }
 
-/* 1 if a surface without transmission lets all light pass with any alpha of a range: it fails the alpha test, or is
- * blended away (transparency_of_hit). */
-static int passes(const struct scene_material *m, struct opacity_range alpha)
+/* The opacity that follows from alpha on a surface without transmission, as in transparency_of_hit. */
+static uint32_t does(const struct scene_material *m, struct opacity_range alpha)
 {
 	/* Alphas are compared in 8 bits; a step more on both sides covers rounding. Products with 0 are exact. */
 	const float ref = roundf(fminf(fmaxf(m->alpha_ref, 0), 1) * 255);
 	const float lo = floorf(alpha.lo * 255) - 1, hi = alpha.hi > 0 ? ceilf(alpha.hi * 255) + 1 : 0;
-	int fails = 0;
+	int fails = 0, passes = 1;
 
 	if (m->alpha_test)
 		switch (m->alpha_func) {
-		case GL_GREATER: fails = hi <= ref; break;
-		case GL_GEQUAL: fails = hi < ref; break;
-		case GL_LESS: fails = lo >= ref; break;
-		case GL_LEQUAL: fails = lo > ref; break;
-		case GL_NOTEQUAL: fails = hi <= 0 && ref <= 0; break;
+		case GL_GREATER: fails = hi <= ref, passes = lo > ref; break;
+		case GL_GEQUAL: fails = hi < ref, passes = lo >= ref; break;
+		case GL_LESS: fails = lo >= ref, passes = hi < ref; break;
+		case GL_LEQUAL: fails = lo > ref, passes = hi <= ref; break;
+		case GL_NOTEQUAL: fails = hi <= 0 && ref <= 0, passes = lo > ref || hi < ref; break;
 		case GL_NEVER: fails = 1; break;
-		default: break;
+		case GL_ALWAYS: break;
+		default: passes = 0; break;
 		}
-	return fails || (m->blend && !(m->surface.hidden & SCENE_SOLID) && m->blend_equation_rgb == GL_FUNC_ADD &&
-	                 m->blend_src_rgb == GL_SRC_ALPHA && m->blend_dst_rgb == GL_ONE_MINUS_SRC_ALPHA && !(alpha.hi > 0));
+	if (fails)
+		return OPACITY_PASSES;
+	if (!passes)
+		return OPACITY_ASK;
+	if (!m->blend || m->surface.hidden & SCENE_SOLID)
+		return OPACITY_STOPS;
+	if (m->blend_equation_rgb != GL_FUNC_ADD || m->blend_src_rgb != GL_SRC_ALPHA ||
+	    m->blend_dst_rgb != GL_ONE_MINUS_SRC_ALPHA)
+		return OPACITY_ASK;
+	return alpha.lo >= FULL ? OPACITY_STOPS : alpha.hi > 0 ? OPACITY_ASK : OPACITY_PASSES;
 }
 
-int opacity_cells_pass(const struct opacity_cells *c, uint32_t i, uint32_t j)
+uint32_t opacity_cells_at(const struct opacity_cells *c, uint32_t i, uint32_t j)
 {
 	const struct scene *scene = c->surface->scene;
 	const struct scene_material *m = c->surface->material;
@@ -238,7 +250,7 @@ int opacity_cells_pass(const struct opacity_cells *c, uint32_t i, uint32_t j)
 			alpha = through_unit(unit, format, alpha,
 			                     k == c->surface->unit ? sample_range(c, i, j) : anything, c->primary);
 	}
-	return passes(m, clamped(alpha));
+	return does(m, clamped(alpha));
 }
 
 /* --- Triangles --------------------------------------------------------------------------------------------------- */

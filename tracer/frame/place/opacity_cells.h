@@ -1,6 +1,6 @@
 /*
- * The alpha that a surface can have within a cell of a triangle, from bounds of its texels and of what texture
- * environments make of them: a ray to a light may pass the whole cell.
+ * Which alpha a surface can have within a cell of a triangle, and so what it does to a ray to a light that hits the
+ * cell: bounds of its texels, and of what texture environments make of them.
  */
 #pragma once
 
@@ -51,5 +51,5 @@ struct opacity_cells {
 void opacity_cells_start(const struct opacity_surface *s, const uint32_t index[3], uint32_t n,
                          struct opacity_cells *out);
 
-/** 1 if all light passes the cell (i, j); 0: not known, or not all of it. */
-int opacity_cells_pass(const struct opacity_cells *cells, uint32_t i, uint32_t j);
+/** The opacity of the cell (i, j), on sides that light does not pass: OPACITY_STOPS, _PASSES or _ASK. */
+uint32_t opacity_cells_at(const struct opacity_cells *cells, uint32_t i, uint32_t j);

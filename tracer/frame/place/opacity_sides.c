@@ -34,8 +34,8 @@ uint32_t opacity_turn_of(const struct instance *instance)
 	return dot(across, m + 8) < 0 ? turn | OPACITY_MIRRORED : turn;
 }
 
-/* The side of a lit triangle that its normals face; 0: it is hardly turned to either. */
-static uint32_t side_by_normals(const struct opacity_surface *s, const uint32_t index[3])
+/* The side of a lit triangle that its normals face. */
+static uint32_t side_by_normals(const struct opacity_surface *s, const uint32_t index[3], int *sure)
 {
 	const float *corner[3];
 	float e1[3], e2[3], plane[3], sum[3] = { 0 };
@@ -55,15 +55,15 @@ static uint32_t side_by_normals(const struct opacity_surface *s, const uint32_t 
 	}
 	cross(e1, e2, plane);
 	along = dot(plane, sum) / sqrt(dot(plane, plane) * dot(sum, sum));
-	if (!(fabs(along) > 10 * TRANSPARENCY_ACROSS))
-		return 0;
-	return along > 0 ? INSTANCE_PASS_COUNTER : INSTANCE_PASS_CLOCKWISE;
+	*sure = fabs(along) > 10 * TRANSPARENCY_ACROSS;
+	return !*sure ? 0 : along > 0 ? INSTANCE_PASS_COUNTER : INSTANCE_PASS_CLOCKWISE;
 }
 
-uint32_t opacity_sides_of(const struct opacity_surface *s, uint32_t turn, const uint32_t index[3])
+uint32_t opacity_sides_of(const struct opacity_surface *s, uint32_t turn, const uint32_t index[3], int *sure)
 {
 	const struct scene_material *m = s->material;
 
+	*sure = 1;
 	if (!(m->surface.hidden & SCENE_ONE_SIDED))
 		return 0;
 	if (m->cull_face == GL_FRONT || m->cull_face == GL_BACK) {
@@ -71,5 +71,8 @@ uint32_t opacity_sides_of(const struct opacity_surface *s, uint32_t turn, const 
 
 		return front_is_counter == (m->cull_face == GL_BACK) ? INSTANCE_PASS_COUNTER : INSTANCE_PASS_CLOCKWISE;
 	}
-	return m->lighting && !m->two_side && !(turn & OPACITY_WARPED) ? side_by_normals(s, index) : 0;
+	if (!m->lighting || m->two_side)
+		return 0;
+	*sure = !(turn & OPACITY_WARPED);
+	return *sure ? side_by_normals(s, index, sure) : 0;
 }

@@ -13,5 +13,8 @@
 
 uint32_t opacity_turn_of(const struct instance *instance);
 
-/** The sides of a triangle that all rays to lights pass: INSTANCE_PASS_*; 0 also if that is not known. */
-uint32_t opacity_sides_of(const struct opacity_surface *s, uint32_t turn, const uint32_t index[3]);
+/**
+ * The sides of a triangle that rays to lights pass: INSTANCE_PASS_*.
+ * @param sure  receives 0 if that is not known
+ */
+uint32_t opacity_sides_of(const struct opacity_surface *s, uint32_t turn, const uint32_t index[3], int *sure);

@@ -17,27 +17,28 @@ static uint32_t map_level(const struct opacity_surface *s)
 	return level;
 }
 
-/* Fill a triangle's map. @return its word without sides */
-static uint32_t fill_map(const struct opacity_surface *s, const uint32_t index[3], uint32_t level, uint32_t place,
-                         uint32_t *map)
+/* Fill a triangle's map. stops: 0 if it may let light pass that alpha would stop. @return its word without sides */
+static uint32_t fill_map(const struct opacity_surface *s, const uint32_t index[3], int stops, uint32_t level,
+                         uint32_t place, uint32_t *map)
 {
 	const uint32_t n = 1u << level;
-	uint32_t passing = 0, stopping = 0;
+	uint32_t all = SCENE_NONE, differs = 0;
 	struct opacity_cells cells;
 
-	memset(map, 0, opacity_map_words(level) * sizeof(*map));
+	memset(map, 0xaa, opacity_map_words(level) * sizeof(*map)); /* OPACITY_ASK beyond the diagonal */
 	opacity_cells_start(s, index, n, &cells);
 	for (uint32_t j = 0; j < n; j++)
 		for (uint32_t i = 0; i + j < n; i++) {
-			const uint32_t cell = j << level | i, passes = (uint32_t)opacity_cells_pass(&cells, i, j);
+			const uint32_t cell = j << level | i, shift = 2 * (cell & 15);
+			uint32_t does = opacity_cells_at(&cells, i, j);
 
-			map[cell >> 5] |= passes << (cell & 31);
-			passing += passes;
-			stopping += !passes;
+			if (does == OPACITY_STOPS && !stops)
+				does = OPACITY_ASK;
+			map[cell >> 4] = (map[cell >> 4] & ~(3u << shift)) | does << shift;
+			all = all == SCENE_NONE ? does : all;
+			differs |= does != all;
 		}
-	if (passing && stopping)
-		return OPACITY_MAP | level << OPACITY_LEVEL | place << OPACITY_PLACE;
-	return passing ? OPACITY_PASSES : OPACITY_STOPS;
+	return differs ? OPACITY_MAP | level << OPACITY_LEVEL | place << OPACITY_PLACE : all;
 }
 
 size_t opacity_words_count(const struct opacity_surface *s)
@@ -48,11 +49,13 @@ size_t opacity_words_count(const struct opacity_surface *s)
 void opacity_words_fill(const struct opacity_surface *s, uint32_t turn, uint32_t *words)
 {
 	const uint32_t n = s->mesh->primitive_count, level = map_level(s);
+	const int stops_sun = !(s->material->surface.hidden & SCENE_STOPS_NO_SUN);
 
 	for (uint32_t i = 0; i < n; i++) {
 		const uint32_t *index = s->mesh->index + 3 * (size_t)i, place = n + i * opacity_map_words(level);
+		int sure;
+		const uint32_t sides = opacity_sides_of(s, turn, index, &sure);
 
-		words[i] = fill_map(s, index, level, place, words + place) |
-		           opacity_sides_of(s, turn, index) >> OPACITY_SIDES_SHIFT;
+		words[i] = fill_map(s, index, sure && stops_sun, level, place, words + place) | sides >> OPACITY_SIDES_SHIFT;
 	}
 }

@@ -1,5 +1,6 @@
 /*
- * The words of an instance: where its triangles let all light pass (kernels/rays/opacity.h).
+ * The words of an instance: what its triangles do to rays to lights (kernels/rays/opacity.h), as far as it is the same
+ * for all rays.
  */
 #pragma once
 
