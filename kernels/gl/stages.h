@@ -269,7 +269,7 @@ static inline GLOBAL const uint32_t *stage_pixel_group(const struct tables *t, c
 {
 	const struct stage_extent columns = stage_extent_of(p, 0u), rows = stage_extent_of(p, 1u);
 	GLOBAL const struct texture_image *image = &t->textures[(uint32_t)(p->vertex[0]->color[1][2] + 0.5f)];
-	const uint32_t told = (uint32_t)(p->vertex[0]->color[1][3] + 0.5f);
+	const uint32_t kind_and_origin = (uint32_t)(p->vertex[0]->color[1][3] + 0.5f);
 	const int mirrored = (columns.place[1] > columns.place[0]) == (rows.place[1] > rows.place[0]);
 	int high = 0, at_column = !mirrored, at_row;
 	float column, row;
@@ -278,9 +278,9 @@ static inline GLOBAL const uint32_t *stage_pixel_group(const struct tables *t, c
 		high += p->vertex[i]->color[1][1] == rows.texel[1];
 	at_row = mirrored || high == 2;
 	column = stage_texel(&columns, at_column, 0, rows.place[!at_row] - rows.place[at_row], x, image->width);
-	row = stage_texel(&rows, at_row, (told & SCENE_FROM_TOP) != 0u,
+	row = stage_texel(&rows, at_row, (kind_and_origin & SCENE_FROM_TOP) != 0u,
 	                  columns.place[at_column] - columns.place[!at_column], y, image->height);
-	*kind = told & ~SCENE_FROM_TOP;
+	*kind = kind_and_origin & ~SCENE_FROM_TOP;
 	return t->texels + image->level_first[0] + ((uint32_t)row * image->width + (uint32_t)column) * image->words;
 }
 

@@ -286,7 +286,7 @@ static void set_clears(const struct making *m, const int32_t shown[4])
 		       sizeof(out->clears[i].scissor));
 }
 
-static void tell(const struct viewpoint *v, uint32_t number, uint32_t pictures, char *out, size_t size)
+static void write_placement(const struct viewpoint *v, uint32_t number, uint32_t pictures, char *out, size_t size)
 {
 	const float *m = v->eye_from_camera;
 	int n = snprintf(out, size, "at %.6g %.6g %.6g, towards %.4g %.4g %.4g, up %.4g %.4g %.4g", 0.0 + m[12],
@@ -329,7 +329,7 @@ int elsewhere_make(const struct camera *camera, const struct look *look, const s
 		out->scene.start = NULL;
 		out->scene.before = NULL;
 		out->without = m.without;
-		tell(&m.viewpoint, number, camera_pictures(camera), out->told, sizeof(out->told));
+		write_placement(&m.viewpoint, number, camera_pictures(camera), out->placement, sizeof(out->placement));
 	}
 	free(m.skies);
 	free(m.kept_before);

@@ -24,9 +24,9 @@ struct camera;
 struct look;
 
 struct elsewhere {
-	struct scene scene; /* a copy that borrows what has not changed */
-	char told[200];     /* the camera's position and direction, for an attribute of the picture */
-	uint32_t without;   /* number of draws left out because programs place their vertices in an unknown way */
+	struct scene scene;  /* a copy that borrows what has not changed */
+	char placement[200]; /* the camera's position and direction, for an attribute of the picture */
+	uint32_t without;    /* number of draws left out because programs place their vertices in an unknown way */
 };
 
 /**

@@ -10,12 +10,12 @@ static const GLubyte bytes[4096];
 static const GLfloat numbers[4096], ones[16] = { 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1 };
 static const GLdouble doubles[16] = { 1 };
 
-static void told(const char *call)
+static void print_error(const char *call)
 {
 	printf("%.*s %x\n", (int)strcspn(call, "("), call, glGetError());
 }
 
-#define TRY(call) ((call), told(#call))
+#define TRY(call) ((call), print_error(#call))
 
 static void state(void)
 {
@@ -362,11 +362,11 @@ static void shapes(void)
 	glBegin(GL_TRIANGLES);
 	glLineWidth(3);
 	glEnd();
-	told("glLineWidth");
+	print_error("glLineWidth");
 	glBegin(GL_TRIANGLES);
 	glBegin(GL_POINTS);
 	glEnd();
-	told("glBegin");
+	print_error("glBegin");
 	TRY(glRectf(0, 0, 1, 1));
 	glVertexPointer(3, GL_FLOAT, 0, numbers);
 	glEnableClientState(GL_VERTEX_ARRAY);
@@ -386,7 +386,7 @@ static void shapes(void)
 	TRY(glFogf(GL_FOG_DENSITY, -1));
 	TRY(glEndList());
 	glCallList(3);
-	told("glFogf");
+	print_error("glFogf");
 	TRY(glCallList(99));
 	TRY(glCallLists(1, GL_DOUBLE, bytes));
 	TRY(glCallLists(-1, GL_BYTE, bytes));

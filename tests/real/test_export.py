@@ -72,11 +72,11 @@ for trace, frame in ((ROOT / "tests/golden/cornell.trace", 1), (ROOT / "tests/go
         light = lights[node["extensions"]["KHR_lights_punctual"]["light"]]
         places = [min(c[k] for c in corners) + max(c[k] for c in corners) for k in range(3)]
         d2 = sum((node["matrix"][12 + k] - places[k] / 2) ** 2 for k in range(3))
-        told = next(l for l in scene["lights"] if all(
+        source = next(l for l in scene["lights"] if all(
             abs(l["position_eye"][k] - node["matrix"][12 + k]) < 1e-3 for k in range(3)))
-        most = max(told["diffuse"][:3])
+        most = max(source["diffuse"][:3])
         want = 683 * (most / 12.92 if most <= 0.04045 else ((most + 0.055) / 1.055) ** 2.4)
-        want /= sum(a * math.sqrt(d2) ** k for k, a in enumerate(told["attenuation"]))
+        want /= sum(a * math.sqrt(d2) ** k for k, a in enumerate(source["attenuation"]))
         got = light["intensity"] / d2 / math.pi
         check(light["type"] == "point" and abs(got - want) < 0.01 * want,
               f"{trace.stem}: luminance {got}, expected {want}")

@@ -13,7 +13,7 @@ PROGRAM = BUILD / "tests/trace/frames"  # ten frames
 BARE = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
 
 
-def told(what, code, words, *program, start=run, env=None, options=()):
+def require_line(what, code, words, *program, start=run, env=None, options=()):
     """Require one line from us with the given words, and the exit code."""
     trace = SCRATCH / "x.trace"
     done = start(RELUME, "record", "-o", trace, *options, "--", *program, env=env)
@@ -33,38 +33,38 @@ def built(name, text, *options):
 
 
 # No display; one that does not answer; no OpenGL at all.
-told("no display", 1, [
+require_line("no display", 1, [
     "frames: nothing was recorded: the program loaded OpenGL and ended without calling it",
     "there is no display (DISPLAY and WAYLAND_DISPLAY are not set): 'xvfb-run -a relume record ...' makes one"
 ], PROGRAM, env=BARE)
-told("a display that is gone", 1, ["no X server answers at DISPLAY=:7171"], PROGRAM, env=dict(BARE, DISPLAY=":7171"))
-told("no OpenGL", 5, ["true: nothing was recorded: the program loaded no OpenGL (libGL, libEGL or libOSMesa)"], "true",
+require_line("a display that is gone", 1, ["no X server answers at DISPLAY=:7171"], PROGRAM, env=dict(BARE, DISPLAY=":7171"))
+require_line("no OpenGL", 5, ["true: nothing was recorded: the program loaded no OpenGL (libGL, libEGL or libOSMesa)"], "true",
      start=on_display)
-told("no OpenGL, and a failure of its own", 7, ["loaded no OpenGL"], "sh", "-c", "exit 7", start=on_display)
+require_line("no OpenGL, and a failure of its own", 7, ["loaded no OpenGL"], "sh", "-c", "exit 7", start=on_display)
 
 # Vulkan is recognised by the library's name.
 vulkan = built("libvulkan.so.1", "int nothing;\n", "-shared", "-fPIC")
-told("Vulkan", 5, ["the program draws with Vulkan, but Relume records OpenGL", "OpenGL renderer"],
+require_line("Vulkan", 5, ["the program draws with Vulkan, but Relume records OpenGL", "OpenGL renderer"],
      sys.executable, "-c", f"import ctypes; ctypes.CDLL('{vulkan}')", start=on_display)
 
 # Programs that the recorder cannot be loaded into.
 static = built("static", "int usleep(unsigned);\nint main(void)\n{\n\treturn usleep(700000);\n}\n", "-static")
 if static:
-    told("a static program", 5,
+    require_line("a static program", 5,
          ["static: nothing was recorded: the program is linked statically", "link it dynamically"], static)
-    told("one that a shell starts", 5, ["sh: nothing was recorded: process 'static' is linked statically"], "sh", "-c",
+    require_line("one that a shell starts", 5, ["sh: nothing was recorded: process 'static' is linked statically"], "sh", "-c",
          f"{static}; :")
 # 32 bits: the file's header suffices, since it is not started.
 head = b"\x7fELF\x01\x01\x01" + bytes(9) + struct.pack("<HHIIIIIHHHHHH", 2, 3, 1, 0, 52, 0, 0, 52, 32, 1, 0, 0, 0)
 (SCRATCH / "old").write_bytes(head + struct.pack("<IIIIIIII", 3, 84, 84, 84, 0, 0, 4, 1))
 (SCRATCH / "old").chmod(0o755)
 if not pathlib.Path(RELUME).with_name("lib").joinpath("i386-linux-gnu/librelume.so").exists():
-    done = told("a program of 32 bits", 5, ["old: is a 32-bit program", "'make i386' builds the other one"],
+    done = require_line("a program of 32 bits", 5, ["old: is a 32-bit program", "'make i386' builds the other one"],
                 SCRATCH / "old")
     check("ld.so" not in done.stderr, f"without the loader's message: {done.stderr}")
 # A cleared environment: by `env -i`, as with sudo and sandboxes.
 sleeper = built("sleeper", "int usleep(unsigned);\nint main(void)\n{\n\treturn usleep(700000);\n}\n")
-told("env -i", 5, [
+require_line("env -i", 5, [
     "nothing was recorded: process 'sleeper' ran without the recorder: its environment was cleared (env -i, sudo)",
     "put 'relume record -- ' behind that"
 ], "env", "-i", sleeper)
@@ -74,7 +74,7 @@ if os.geteuid() == 0 and sleeper:
     shutil.copy(sleeper, granted)
     os.chown(granted, 0, 60)
     granted.chmod(0o2755)
-    told("a set-group-ID program", 5, [
+    require_line("a set-group-ID program", 5, [
         "nothing was recorded: process 'granted' has the rights of its file's owner or group",
         "'relume record -- ' before that file itself"
     ], "sh", "-c", f"{granted}; :")

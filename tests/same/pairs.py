@@ -103,7 +103,7 @@ def compare(image, other, flags):
     return Verdict(True)
 
 
-class Told:
+class Variants:
     """A frame of a recording, and its variants. Files go into a folder of its own."""
 
     def __init__(self, build, trace, frame, folder):
@@ -129,7 +129,7 @@ class Told:
         path.unlink()
         return image
 
-    def tell(self, name):
+    def picture(self, name):
         """The frame's picture as drawn under a relation, or a verdict with the reason why there is none. Bases are
         cached.
         """
@@ -155,5 +155,5 @@ class Told:
     def pair(self, name):
         """The verdict on a relation."""
         base, flags, _ = self.relations[name]
-        images = self.tell(base), self.tell(name)
+        images = self.picture(base), self.picture(name)
         return next((image for image in images if isinstance(image, Verdict)), None) or compare(*images, flags)

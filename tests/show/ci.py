@@ -166,14 +166,14 @@ def harmless(r, name):
     else:
         r.write("renderer", f"harmless {name}\n")
     r.ci()
-    told = {"more": [], "baseline": False} if name in HARMLESS else json.loads(
+    wanted = {"more": [], "baseline": False} if name in HARMLESS else json.loads(
         (r.folder / "ci/s/varied.json").read_text(encoding="utf-8"))
-    if told["more"]:
-        option, config = told["more"]
+    if wanted["more"]:
+        option, config = wanted["more"]
         assert option == "--config"
         shutil.copy(config, r.folder / "diff.yaml")
         r.write("relume-ci.yaml", PLAN + "  config: diff.yaml\n")
-    if not told["baseline"]:
+    if not wanted["baseline"]:
         r.approve()
     r.commit(name, "changed")
     return r.ci()

@@ -68,8 +68,8 @@ def compare(build, program):
         wanted.write_text(json.dumps(names))
         said = run("blender", "--background", "--factory-startup", "--python",
                    ROOT / "tests/show/cryptomatte_in_blender.py", "--", frame, wanted, folder / "mattes")
-        told = re.search(r"^MATTES (.*)$", said, re.MULTILINE)
-        if not told:
+        report = re.search(r"^MATTES (.*)$", said, re.MULTILINE)
+        if not report:
             sys.exit(f"Blender made no mattes:\n{said[-1500:]}")
         rows = []
         for layer, objects in names.items():
@@ -82,7 +82,7 @@ def compare(build, program):
                     sys.exit(f"{program}: no pixel shows {name} of {layer}, although the manifest lists it")
                 wrong += int((matte != truth).sum())
             rows.append((layer, len(objects), wrong))
-        return rows, json.loads(told.group(1))["version"]
+        return rows, json.loads(report.group(1))["version"]
 
 
 def main(build):

@@ -17,7 +17,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tests/same"))
-from pairs import Told, run  # noqa: E402
+from pairs import Variants, run  # noqa: E402
 from table import Shown  # noqa: E402
 
 # Programs below BUILD with their options. Frame 1 of each is used.
@@ -64,11 +64,11 @@ def look(build, work, only, name, trace, frame):
     trace = trace() if callable(trace) else trace
     if not trace:
         return []
-    told = Told(build, trace, frame, work / f"{name}.told")
-    wanted = [relation for relation, (base, _, _) in told.relations.items()
+    variants = Variants(build, trace, frame, work / f"{name}.variants")
+    wanted = [relation for relation, (base, _, _) in variants.relations.items()
               if base and (not only or any(part in name or part in relation for part in only))]
-    found = [(relation, told.pair(relation)) for relation in wanted]
-    shutil.rmtree(told.folder)
+    found = [(relation, variants.pair(relation)) for relation in wanted]
+    shutil.rmtree(variants.folder)
     return found
 
 

@@ -269,7 +269,7 @@ START_TEST(test_what_stays)
 	ck_assert_float_eq(in[2].modelview[12], -3);
 	ck_assert_float_eq(in[3].modelview[12], -3);
 	ck_assert_mem_eq(e.scene.views[1].projection, views[1].projection, sizeof(views[1].projection));
-	ck_assert_ptr_nonnull(strstr(e.told, "at 3 0 0, towards 0 0 -1, up 0 1 0"));
+	ck_assert_ptr_nonnull(strstr(e.placement, "at 3 0 0, towards 0 0 -1, up 0 1 0"));
 	elsewhere_release(&e);
 	camera_free(&camera);
 	made_free(&t);

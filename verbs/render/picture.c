@@ -85,7 +85,7 @@ static int note_camera(const struct settings *settings, const struct seen *seen,
 	int err = 0;
 
 	if (settings->camera)
-		err = image_set_attribute(img, "relume:camera", "%s", seen->elsewhere.told);
+		err = image_set_attribute(img, "relume:camera", "%s", seen->elsewhere.placement);
 	if (!err && settings->camera && settings->camera->keys->kind)
 		err = image_set_attribute(img, "relume:projection", "%s", settings->camera->keys->kind);
 	if (!err && settings->camera && lens_eyes(settings->camera))

@@ -29,7 +29,7 @@ struct extent {
 	uint64_t end;   /* frames of the recording */
 	uint64_t asked; /* frames or pictures, of all chunks */
 	uint64_t total; /* frames to render */
-	int short_of;   /* 1: it is damaged, and frames after the damage were asked for */
+	int ends_early; /* 1: it is damaged, and frames after the damage were asked for */
 };
 
 /* Check that each picture gets a name of its own. */
@@ -54,7 +54,7 @@ static int choose_frames(struct settings *s, struct replay *replay, struct exten
 
 	if (err)
 		return err;
-	x->short_of = damaged && frame_list_last(&s->frames) >= x->end;
+	x->ends_early = damaged && frame_list_last(&s->frames) >= x->end;
 	if (x->end == 0 || (s->frames.n_ranges && frame_list_needed(&s->frames) >= x->end && !damaged))
 		return frame_report_missing(s->trace, frame_list_needed(&s->frames), x->end);
 	x->asked = frame_list_count(&s->frames, x->end);
@@ -71,7 +71,7 @@ static int list_pictures(struct settings *s, struct replay *replay, struct exten
 	char range[32];
 	int err = 0;
 
-	if (x->short_of && (!(s->fps > 0) || !x->total))
+	if (x->ends_early && (!(s->fps > 0) || !x->total))
 		return 0;
 	if (s->fps > 0)
 		err = moments_make(&s->moments, replay, s->trace, &s->frames, x->end, (double)s->fps, (double)s->recorded_fps);
@@ -322,7 +322,7 @@ static int render(struct settings *s, struct carried *carried)
 		p.end = x.end;
 		err = s->dry_run ? rehearse(s, &p.stamp, x.total) : render_frames(&p, x.total, &missing);
 	}
-	if (!err && x.short_of)
+	if (!err && x.ends_early)
 		err = err_report(ERR_INPUT, s->trace, "is damaged after frame %llu; frames up to there are done",
 		                 (unsigned long long)x.end - 1);
 	if (!err && missing.any && !s->allow_incomplete && !s->dry_run)
