@@ -34,6 +34,7 @@
 
 #include "base/err.h"
 #include "base/frames.h"
+#include "base/vec3.h"
 #include "diff/score/burnt.h"
 #include "diff/score/picture.h"
 
@@ -132,11 +133,6 @@ static void subtract(const struct harm *h, size_t a, size_t b, float out[3])
 		out[k] = h->place[k][a] - h->place[k][b];
 }
 
-static float dot(const float a[3], const float b[3])
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 static void normal_at(const struct harm *h, size_t i, float out[3])
 {
 	for (int k = 0; k < 3; k++)
@@ -159,8 +155,8 @@ static int is_same_surface(const struct harm *h, size_t i, size_t other)
 	subtract(h, other, i, apart);
 	normal_at(h, i, normal);
 	normal_at(h, other, normal_there);
-	return (h->id[i] == h->id[other] || dot(normal, normal_there) > 0.8f) &&
-	       fabsf(dot(apart, normal)) < 0.3f * sqrtf(dot(apart, apart));
+	return (h->id[i] == h->id[other] || vec3f_dot(normal, normal_there) > 0.8f) &&
+	       fabsf(vec3f_dot(apart, normal)) < 0.3f * sqrtf(vec3f_dot(apart, apart));
 }
 
 /* 1 if a shadow ends beside a dark pixel, at once or over a penumbra: towards x + dx, y + dy the surface continues with
@@ -259,11 +255,11 @@ static int plane_at(const struct harm *h, uint32_t i, const float normal[3], flo
 	subtract(h, v, i, b);
 	for (int k = 0; k < 3; k++)
 		out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-	length = sqrtf(dot(out, out));
-	side = dot(out, normal) < 0 ? -1.0f : 1.0f;
+	length = sqrtf(vec3f_dot(out, out));
+	side = vec3f_dot(out, normal) < 0 ? -1.0f : 1.0f;
 	for (int k = 0; k < 3; k++)
 		out[k] *= side / length;
-	return length > 0 && dot(out, normal) > 0.5f; /* else the neighbours lie on another face */
+	return length > 0 && vec3f_dot(out, normal) > 0.5f; /* else the neighbours lie on another face */
 }
 
 /* 1 if a pixel is darker than light from all around leaves it, however close occluders are. */
@@ -288,8 +284,8 @@ static int is_terminator(const struct harm *h, uint32_t i)
 
 		for (int k = 0; k < 3; k++)
 			to[k] = light[3] != 0 ? light[k] / light[3] - h->place[k][i] : light[k];
-		length = sqrtf(dot(to, to));
-		if (dot(normal, to) > 0.05f * length && dot(plane, to) < -0.02f * length)
+		length = sqrtf(vec3f_dot(to, to));
+		if (vec3f_dot(normal, to) > 0.05f * length && vec3f_dot(plane, to) < -0.02f * length)
 			return 1;
 	}
 	return 0;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/vec3.h"
 
 #define DEGREE 0.017453292519943295f
 /* Positions are equal if they agree in this many steps of the mesh's size: programs close circles with sin(2 pi). */
@@ -24,21 +25,10 @@ struct facet {
 	int is_flat;     /* 1: it is shaded flat, or its corners have the same normal */
 };
 
-static void subtract(const float a[3], const float b[3], float out[3])
-{
-	for (int k = 0; k < 3; k++)
-		out[k] = a[k] - b[k];
-}
-
-static float dot(const float a[3], const float b[3])
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* Normalize a vector in place; 0 stays 0. @return its length before */
 static float normalize(float v[3])
 {
-	const float length = sqrtf(dot(v, v));
+	const float length = sqrtf(vec3f_dot(v, v));
 
 	for (int k = 0; k < 3; k++)
 		v[k] = length > 0 ? v[k] / length : 0;
@@ -62,16 +52,16 @@ static struct facet facet_of(const struct scene_mesh *mesh, uint32_t primitive, 
 	float edge[3][3], sign;
 
 	for (uint32_t i = 0; i < 3; i++) {
-		subtract(corner_position(mesh, first + (i + 1) % 3), corner_position(mesh, first + i), edge[i]);
+		vec3f_subtract(corner_position(mesh, first + (i + 1) % 3), corner_position(mesh, first + i), edge[i]);
 		normalize(edge[i]);
 		f.is_flat &= flat || memcmp(corner_normal(mesh, first), corner_normal(mesh, first + i), 3 * sizeof(float)) == 0;
 	}
 	for (int i = 0; i < 3; i++)
-		f.angle[i] = acosf(fmaxf(-1, fminf(1, -dot(edge[i], edge[(i + 2) % 3]))));
+		f.angle[i] = acosf(fmaxf(-1, fminf(1, -vec3f_dot(edge[i], edge[(i + 2) % 3]))));
 	for (int k = 0; k < 3; k++)
 		f.normal[k] = edge[0][(k + 1) % 3] * edge[1][(k + 2) % 3] - edge[0][(k + 2) % 3] * edge[1][(k + 1) % 3];
 	normalize(f.normal);
-	sign = dot(f.normal, corner_normal(mesh, first + 2)) < 0 ? -1 : 1;
+	sign = vec3f_dot(f.normal, corner_normal(mesh, first + 2)) < 0 ? -1 : 1;
 	for (int k = 0; k < 3; k++)
 		f.normal[k] *= sign;
 	return f;
@@ -121,7 +111,7 @@ static void mean_normal(const struct facet *facets, const struct corner *corners
 	for (uint32_t i = 0; i < n && n <= MOST_CORNERS; i++) {
 		const struct facet *f = &facets[corners[i].number / 3];
 
-		for (int k = 0; k < 3 && dot(f->normal, face) >= least; k++)
+		for (int k = 0; k < 3 && vec3f_dot(f->normal, face) >= least; k++)
 			sum[k] += f->normal[k] * f->angle[corners[i].number % 3];
 	}
 	memcpy(out, normalize(sum) > 0 ? sum : face, sizeof(sum));
@@ -143,7 +133,7 @@ static void smooth_all(const struct scene_mesh *mesh, const struct facet *facets
 			const struct facet *f = &facets[corners[i].number / 3];
 			float *normal = out + 3 * (size_t)corners[i].number;
 
-			if (f->is_flat && dot(f->normal, f->normal) > 0)
+			if (f->is_flat && vec3f_dot(f->normal, f->normal) > 0)
 				mean_normal(facets, corners + first, end - first, &corners[i], least, normal);
 			else
 				memcpy(normal, corner_normal(mesh, corners[i].number), 3 * sizeof(*normal));

@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 #include "base/mat4.h"
+#include "base/vec3.h"
 #include "look/camera/camera.h"
 #include "look/draws/drawn.h"
 #include "look/draws/solid.h"
@@ -12,12 +13,6 @@
 #include "look/rules/world.h"
 
 /* --- Vectors ----------------------------------------------------------------------------------------------------- */
-
-static void subtract(const float a[3], const float b[3], float out[3])
-{
-	for (int k = 0; k < 3; k++)
-		out[k] = a[k] - b[k];
-}
 
 static void cross(const float a[3], const float b[3], float out[3])
 {
@@ -131,8 +126,8 @@ static void find_recorded(const struct scene_view *view, float eye_from_recorded
 	shown_at(inverse, 0, 0, -1, near);
 	shown_at(inverse, 0, 0, 0.5f, far);
 	shown_at(inverse, 0, 1, -1, above);
-	subtract(far, near, forward);
-	subtract(above, near, up);
+	vec3f_subtract(far, near, forward);
+	vec3f_subtract(above, near, up);
 	mat4_transform(center, inverse, (const float[4]){ 0, 0, 1, 0 }); /* the point where all lines of sight meet */
 	for (int k = 0; k < 3 && !drawn_in_parallel(view); k++)
 		near[k] = center[k] / center[3];
@@ -195,7 +190,7 @@ static void go_around(const struct camera *camera, uint32_t number, struct stanc
 	if (!number || !normalize(axis))
 		return;
 	mat4_rotation(rotation, (float)degrees, axis[0], axis[1], axis[2]);
-	subtract(s->place, s->at, arm);
+	vec3f_subtract(s->place, s->at, arm);
 	mat4_turn(arm, rotation, arm);
 	for (int k = 0; k < 3; k++)
 		s->place[k] = s->at[k] + arm[k];
@@ -227,10 +222,10 @@ static float find_distance(const struct camera_keys *k, const struct stance *s, 
 {
 	float to[3], forward[3], along = 0;
 
-	subtract(s->at, s->place, forward);
+	vec3f_subtract(s->at, s->place, forward);
 	if (k->look_at || k->turntable)
 		return length_of(forward);
-	subtract(middle, s->place, to);
+	vec3f_subtract(middle, s->place, to);
 	normalize(forward);
 	for (int i = 0; i < 3; i++)
 		along += to[i] * forward[i];
@@ -266,7 +261,7 @@ int viewpoint_find(const struct camera *camera, const struct look *look, const s
 		return err;
 	find_middle(scene, out, middle);
 	find_stance(camera, space, out, middle, number, &stance);
-	subtract(stance.at, stance.place, forward);
+	vec3f_subtract(stance.at, stance.place, forward);
 	if (!stand(stance.place, forward, stance.up, out->eye_from_camera, out->camera_from_eye))
 		return err_report(ERR_INPUT, camera->path,
 		                  "frame %llu: no such camera: up is parallel to the line of sight, or place and "

@@ -7,6 +7,7 @@
 #include "base/err.h"
 #include "base/mat4.h"
 #include "base/optimize.h"
+#include "base/vec3.h"
 #include "look/draws/corner.h"
 #include "look/spare/sides.h"
 #include "scene/backdrop.h"
@@ -256,17 +257,6 @@ static int meets_box(const struct line *r, const struct box *box)
 	return near <= far * 1.00001f;
 }
 
-static void cross(const float a[3], const float b[3], float out[3])
-{
-	for (int k = 0; k < 3; k++)
-		out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
-static float dot(const float a[3], const float b[3])
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* The position along a line where it meets a triangle (Moeller and Trumbore 1997); 0: nowhere */
 static float meet_triangle(const struct line *r, const float *a, const float *b, const float *c)
 {
@@ -277,12 +267,12 @@ static float meet_triangle(const struct line *r, const float *a, const float *b,
 		ac[k] = c[k] - a[k];
 		s[k] = r->from[k] - a[k];
 	}
-	cross(r->d, ac, p);
-	det = dot(ab, p);
-	u = dot(s, p) / det;
-	cross(s, ab, q);
-	v = dot(r->d, q) / det;
-	t = dot(ac, q) / det;
+	vec3f_cross(r->d, ac, p);
+	det = vec3f_dot(ab, p);
+	u = vec3f_dot(s, p) / det;
+	vec3f_cross(s, ab, q);
+	v = vec3f_dot(r->d, q) / det;
+	t = vec3f_dot(ac, q) / det;
 	return u >= 0 && v >= 0 && u + v <= 1 && t > 0 && t < r->t_max ? t : 0;
 }
 

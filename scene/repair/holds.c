@@ -3,10 +3,7 @@
 
 #include <math.h>
 
-static double dot(const double a[3], const double b[3])
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+#include "base/vec3.h"
 
 int holds_place(const struct scene_mesh *mesh, const float at[3])
 {
@@ -20,12 +17,12 @@ int holds_place(const struct scene_mesh *mesh, const float at[3])
 
 			for (int k = 0; k < 3; k++)
 				to[c][k] = (double)corner[k] - (double)at[k];
-			length[c] = sqrt(dot(to[c], to[c]));
+			length[c] = sqrt(vec3_dot(to[c], to[c]));
 		}
 		for (int k = 0; k < 3; k++)
 			volume += to[0][k] * (to[1][(k + 1) % 3] * to[2][(k + 2) % 3] - to[1][(k + 2) % 3] * to[2][(k + 1) % 3]);
-		volume = atan2(volume, length[0] * length[1] * length[2] + dot(to[0], to[1]) * length[2] +
-		                               dot(to[1], to[2]) * length[0] + dot(to[2], to[0]) * length[1]);
+		volume = atan2(volume, length[0] * length[1] * length[2] + vec3_dot(to[0], to[1]) * length[2] +
+		                               vec3_dot(to[1], to[2]) * length[0] + vec3_dot(to[2], to[0]) * length[1]);
 		around += isfinite(volume) ? volume : 0;
 	}
 	return fabs(around) > M_PI;

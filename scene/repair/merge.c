@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/vec3.h"
 #include "scene/repair/shape.h"
 
 /* MOST_AROUND: a place with more triangles stays. PASSES: each pass removes only places that are not neighbours. */
@@ -30,11 +31,6 @@ struct ring {
 	double normal[2][3];
 	const struct shape_face *ref[2]; /* the first triangle of each plane */
 };
-
-static double dot(const double a[3], const double b[3])
-{
-	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 /* Collect the triangles around a place. @return 0: they do not form a complete disk */
 static int find_ring(const struct merging *m, uint32_t p, struct ring *r)
@@ -71,12 +67,12 @@ static int is_in_plane(const struct merging *m, const struct ring *r, const stru
 {
 	double own[3], to[3];
 
-	if (shape_normal(m->s, f, own) <= 0 || dot(own, r->normal[side]) <= 0)
+	if (shape_normal(m->s, f, own) <= 0 || vec3_dot(own, r->normal[side]) <= 0)
 		return 0;
 	for (int c = 0; c < 3; c++) {
 		for (int k = 0; k < 3; k++)
 			to[k] = m->s->points[f->p[c]][k] - m->s->points[r->p][k];
-		if (fabs(dot(to, r->normal[side])) > m->s->tolerance)
+		if (fabs(vec3_dot(to, r->normal[side])) > m->s->tolerance)
 			return 0;
 	}
 	return 1;
@@ -121,7 +117,7 @@ static void weigh(const struct shape *s, const struct shape_face *f, const doubl
 
 			part[k] = (a[i] - at[i]) * (b[j] - at[j]) - (b[i] - at[i]) * (a[j] - at[j]);
 		}
-		out[c] = dot(part, whole) / square;
+		out[c] = vec3_dot(part, whole) / square;
 	}
 }
 
@@ -176,11 +172,11 @@ static int is_along(const struct merging *m, const struct ring *r, uint32_t q)
 		way[k] = m->s->points[ends[1]][k] - m->s->points[ends[0]][k];
 		to[k] = m->s->points[r->p][k] - m->s->points[ends[0]][k];
 	}
-	const double along = dot(to, way) / dot(way, way);
+	const double along = vec3_dot(to, way) / vec3_dot(way, way);
 
 	for (int k = 0; k < 3; k++)
 		to[k] -= along * way[k];
-	return along > 0 && along < 1 && sqrt(dot(to, to)) <= m->s->tolerance;
+	return along > 0 && along < 1 && sqrt(vec3_dot(to, to)) <= m->s->tolerance;
 }
 
 static int is_neighbour(const struct ring *r, uint32_t p)
@@ -215,7 +211,7 @@ static int can_become(const struct merging *m, const struct ring *r, uint32_t q)
 		for (int c = 0; c < 3; c++)
 			for (int k = 0; k < 3; k++)
 				most = fmax(most, fabs(m->s->points[f.p[c]][k] - m->s->points[f.p[(c + 1) % 3]][k]));
-		if (!(dot(normal, r->normal[r->side[i]]) > 4 * m->s->tolerance * most) ||
+		if (!(vec3_dot(normal, r->normal[r->side[i]]) > 4 * m->s->tolerance * most) ||
 		    !is_in_plane(m, r, &f, r->side[i]) || !(length > 0))
 			return 0;
 	}

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/err.h"
+#include "base/vec3.h"
 #include "look/draws/followed.h"
 #include "look/draws/matrix.h"
 #include "scene/drawn.h"
@@ -148,12 +149,6 @@ static void follow_rigid(struct work *w, const double (*moves)[16], const uint8_
 	}
 }
 
-static void cross(double out[3], const double a[3], const double b[3])
-{
-	for (int k = 0; k < 3; k++)
-		out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
-}
-
 /* A point's barycentric weights in a triangle. @return 0: it is outside */
 static int weigh(const double corner[3][3], const double point[3], double weight[3])
 {
@@ -164,13 +159,13 @@ static int weigh(const double corner[3][3], const double point[3], double weight
 		b[k] = corner[2][k] - corner[0][k];
 		p[k] = point[k] - corner[0][k];
 	}
-	cross(n, a, b);
+	vec3_cross(a, b, n);
 	square = matrix_dot3(n, n);
 	if (!(square > 0) || fabs(matrix_dot3(p, n)) > OFF_TRIANGLE * pow(square, 0.75))
 		return 0;
-	cross(c, p, b);
+	vec3_cross(p, b, c);
 	weight[1] = matrix_dot3(c, n) / square;
-	cross(c, a, p);
+	vec3_cross(a, p, c);
 	weight[2] = matrix_dot3(c, n) / square;
 	weight[0] = 1 - weight[1] - weight[2];
 	return weight[0] > -OFF_TRIANGLE && weight[1] > -OFF_TRIANGLE && weight[2] > -OFF_TRIANGLE;
