@@ -5,6 +5,7 @@
 
 #include "base/hash.h"
 #include "base/plural.h"
+#include "gl_tokens.h"
 #include "scene/tokens.h"
 
 static void write_draw(FILE *out, const struct scene_draw *draw, uint32_t number)
@@ -47,6 +48,17 @@ static void write_color(FILE *out, const char *name, const float c[4])
 	fprintf(out, ", %s %.3g %.3g %.3g", name, (double)c[0], (double)c[1], (double)c[2]);
 }
 
+/* A colour of a lit material, unless glColorMaterial takes it from the vertices (GL 2.1 sec. 2.14.3). */
+static void write_part(FILE *out, const struct scene_material *m, const char *name, uint32_t mode, const float c[4])
+{
+	const int both = m->color_material_mode == GL_AMBIENT_AND_DIFFUSE && mode != GL_SPECULAR;
+
+	if (m->color_material && (both || m->color_material_mode == mode))
+		fprintf(out, ", %s from the vertices", name);
+	else
+		write_color(out, name, c);
+}
+
 static void write_lighting(FILE *out, const struct scene_material *m)
 {
 	if (!m->lighting) {
@@ -54,11 +66,8 @@ static void write_lighting(FILE *out, const struct scene_material *m)
 		return;
 	}
 	fprintf(out, "material: lit by %u light%s", m->light_count, plural(m->light_count));
-	if (m->color_material)
-		fprintf(out, ", its colour from the vertices");
-	else
-		write_color(out, "diffuse", m->front.diffuse);
-	write_color(out, "specular", m->front.specular);
+	write_part(out, m, "diffuse", GL_DIFFUSE, m->front.diffuse);
+	write_part(out, m, "specular", GL_SPECULAR, m->front.specular);
 	fprintf(out, ", shininess %.3g", (double)m->front.shininess);
 }
 

@@ -206,6 +206,7 @@ int gate_unexplained(struct gate_frame *f)
 
 int gate_ranges(struct gate_frame *f)
 {
+	char text[256] = "";
 	int outside = 0;
 
 	if (!f->closure.has_layers || !f->options->n_ranges) {
@@ -218,10 +219,15 @@ int gate_ranges(struct gate_frame *f)
 
 		/* an unset bound is NAN, so nothing is beyond it */
 		if (share < r->low || share > r->high) {
+			const size_t n = strlen(text);
+
+			snprintf(text + n, sizeof(text) - n, "%s%s touches %.3f %%", outside ? ", " : "",
+			         score_effect_names[r->effect], 100 * share);
 			outside++;
-			gate_note(f, GATE_E3, "%s touches %.3f %% of the pixels", score_effect_names[r->effect], 100 * share);
 		}
 	}
+	if (outside)
+		gate_note(f, GATE_E3, "%s of the pixels", text);
 	gate_measure(f, GATE_E3, 0, outside);
 	return 0;
 }

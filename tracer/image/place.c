@@ -60,7 +60,10 @@ int image_place(struct image *img, const char *path)
 		return 0;
 	x = overlap(first[0], img->width, out.width);
 	y = overlap(first[1], img->height, out.height);
-	if (!x.n || !y.n || (uint64_t)out.width * out.height > MAX_PIXELS)
+	if ((uint64_t)out.width * out.height > MAX_PIXELS)
+		return err_report(ERR_INPUT, path, "its display window (%u x %u) has more than %llu pixels", out.width,
+		                  out.height, (unsigned long long)MAX_PIXELS);
+	if (!x.n || !y.n)
 		return err_report(
 			ERR_INPUT, path,
 			"its data window (%u x %u at %lld, %lld) shows nothing of its display window (%u x %u)",
