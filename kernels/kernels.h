@@ -481,8 +481,8 @@ typedef float element_float;
 	X(intersect_wide) X(intersect_binary) X(intersect_compressed) X(query_all) X(query_distance) X(query_box) \
 	X(query_sphere) \
 	X(vertex) X(vertex_program) X(window) X(gather) X(shade) X(shadow_ray) X(hit_ray) X(ao_ray) \
-	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(gather_hits) X(leave) X(sky_ray) \
-	X(want_lights) \
+	X(shadow_sum) X(shadow_start) X(shadow_walk) X(scan_sum) X(scan_place) X(gather_paths) X(gather_hits) \
+	X(leave) X(sky_ray) X(want_lights) \
 	X(shade_hit) X(leave_ray) X(bounce_ray) X(credit) X(photon) X(ao_shade) X(dome_find) X(dome_sum) X(dome_light) \
 	X(plain) X(layered_start) X(layered_picture) X(plain_whole) X(clear) X(resolve) X(merge_samples) X(add_pass) \
 	X(compose) \

@@ -7,8 +7,8 @@
 #include "kernels/rays/wide.h"
 
 static inline void walk_instance(struct walk *eye, uint index, int any, uint to_lights, __global const uint *opacity,
-                                 uint tie, __global const struct instance *instances, __global const struct node8 *nodes,
-                                 __global const struct triangle8 *triangles)
+                                 uint tie, __global const struct instance *instances,
+                                 __global const struct node8 *nodes, __global const struct triangle8 *triangles)
 {
 	__global const struct instance *instance = &instances[index];
 	struct walk w;

@@ -17,8 +17,8 @@ struct walk {
 	struct hit hit; /* hit.t: end of the ray so far */
 	uint asks;      /* any-hit queries: 1 after a hit that has to be sampled (kernels/rays/opacity.h) */
 	float after;    /* t of the hit, in eye space, that the ray continues behind; -infinity: none */
-	float shift;    /* what to add to t for eye space */
-	uint tie;       /* the least primitive that counts at that t: of an instance; in eye space see walk_tie */
+	float shift;    /* added to t, gives t in eye space */
+	uint tie;       /* the least primitive that counts at that t, of the instance being walked (walk_tie) */
 };
 
 /*
@@ -81,7 +81,7 @@ static inline uint walk_tie(__global const struct hit *last, uint instance)
 	return instance > last->instance ? 0 : instance == last->instance ? last->primitive + 1 : SCENE_NONE;
 }
 
-/* Where a ray that continues behind a hit starts: rounding can put a surface at the same t in front of its box. */
+/* Start of a ray that continues behind a hit: rounding can put a surface at the same t in front of its box. */
 static inline float walk_begin(float t)
 {
 	return fma(fabs(t), -RAYS_END_SLACK, t);

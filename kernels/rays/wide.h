@@ -52,7 +52,7 @@ static inline uint push_boxes(struct entry *stack, uint depth, uint bits, const 
 	return depth;
 }
 
-/* What an any-hit query knows of an instance's triangles: by side (rays_passes), and by kernels/rays/opacity.h. */
+/* Knowledge of an instance's triangles for any-hit queries: by side (rays_passes), and by kernels/rays/opacity.h. */
 struct known {
 	__global const uint *words;
 	uint opacity, passes, to_lights;
@@ -70,7 +70,7 @@ static inline struct known known_of(__global const struct instance *instance, in
 	return k;
 }
 
-/* What a primitive does to an any-hit query's ray: OPACITY_STOPS, _PASSES or _ASK. inverse: of the determinant */
+/* The effect of a primitive on an any-hit query's ray: OPACITY_STOPS, _PASSES or _ASK. inverse: of the determinant */
 static inline uint known_opacity(struct known k, uint primitive, float inverse, float b1, float b2)
 {
 	const uint word = opacity_word(k.words, k.opacity, primitive);

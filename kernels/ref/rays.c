@@ -21,7 +21,7 @@ struct args {
 	const void *nodes, *triangles;
 	enum tree tree;
 	const uint32_t *opacity; /* NULL: nothing is known of surfaces */
-	const struct hit *last;  /* what the rays continue behind; NULL: nothing */
+	const struct hit *last;  /* hits that the rays continue behind; NULL: none */
 };
 #define ARGS_OF(a, kind) \
 	{ (a)->n_rays, (a)->rays, (a)->top_first, (a)->top, (a)->instance_list, (a)->instances, (a)->nodes, (a)->triangles, \
@@ -36,8 +36,8 @@ struct walk {
 	int any;        /* 1: any hit will do */
 	uint32_t asks;  /* 1: it hit a surface that has to be sampled */
 	uint32_t to_lights, passes, opacity; /* as in kernels/rays/rays.h and opacity.h; for the instance that it walks */
-	const struct hit *last; /* what the ray continues behind, or NULL */
-	float after, shift;     /* t of that hit, in eye space; what to add to t for eye space */
+	const struct hit *last; /* the hit that the ray continues behind, or NULL */
+	float after, shift;     /* t of that hit, in eye space; added to t, gives t in eye space */
 	uint32_t tie;           /* the least primitive of the instance that counts at that t */
 };
 

@@ -124,7 +124,7 @@ static void run(struct random_scene *s, struct device *dev, const struct ray *ra
 	}
 }
 
-/* Where a ray meets a triangle's plane, in double precision. */
+/* The place where a ray meets a triangle's plane, in double precision. */
 struct meeting {
 	double t, b1, b2, det, edge; /* edge: distance to the triangle's edge, negative outside, in weights */
 };
@@ -159,8 +159,8 @@ static struct meeting meet(const struct random_scene *s, const struct ray *ray, 
 	return got;
 }
 
-/* What a triangle's hit does to a ray (kernels/rays/opacity.h): OPACITY_STOPS, _PASSES or _ASK. margin: becomes at most
- * the distance to another cell */
+/* The effect of a triangle on a ray that hits it (kernels/rays/opacity.h): OPACITY_STOPS, _PASSES or _ASK. margin:
+ * becomes at most the distance to another cell */
 static uint32_t does_of(const struct instance *instance, uint32_t primitive, const struct meeting *m, int to_lights,
                         const uint32_t *words, double *margin)
 {

@@ -38,8 +38,8 @@ struct hook_found {
 
 /* Call the hook's intersection for an object, if the ray meets its box between `begin` and `end`. @return 1: it
  * reported a hit there */
-static inline int hook_try(GLOBAL const struct hook_object *object, GLOBAL const struct ray *ray, float begin, float end,
-                           GLOBAL const float *row, struct hook_found *found)
+static inline int hook_try(GLOBAL const struct hook_object *object, GLOBAL const struct ray *ray, float begin,
+                           float end, GLOBAL const float *row, struct hook_found *found)
 {
 	const struct vec3 o = hook_move(object->obj_from_eye, v3_load(ray->o)),
 			  d = hook_turn(object->obj_from_eye, v3_load(ray->d));
