@@ -24,6 +24,7 @@ uint32_t scene_mesa_of(const char *gl)
 		{ 2500, UINT_MAX, SCENE_MESA_LINEAR_MEANS },
 		{ 2500, UINT_MAX, SCENE_MESA_LACKS_YCBCR },
 		{ 2500, UINT_MAX, SCENE_MESA_TRACKS_COLORS },
+		{ 2500, UINT_MAX, SCENE_MESA_KEEPS_BITMAPS },
 	};
 	const char *mesa = strstr(gl, "Mesa ");
 	unsigned major, minor;

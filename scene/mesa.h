@@ -39,6 +39,8 @@ enum scene_mesa {
 	/* 25.0: with COLOR_MATERIAL, lighting uses the current colour, and no pending parameter
 	 * (replay/gl/geometry/waiting.h) */
 	SCENE_MESA_TRACKS_COLORS = 8192,
+	/* 25.0: bitmaps whose pixels are NULL are kept in display lists */
+	SCENE_MESA_KEEPS_BITMAPS = 16384,
 };
 
 /**

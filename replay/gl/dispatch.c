@@ -21,6 +21,7 @@
 #include "replay/machine/fixed.h"
 #include "replay/machine/machine.h"
 #include "replay/programs/program.h"
+#include "scene/mesa.h"
 
 #define MAX_THREADS 65536
 
@@ -100,6 +101,13 @@ static int is_recorders_own(const struct gls_command *k, const struct call *c)
 	       !(v->count >= sizeof(material) - 1 && memcmp(text, material, sizeof(material) - 1) == 0);
 }
 
+/* 1 for a bitmap of no pixels in a list, as blanks of fonts are: Mesa 22.3 leaves it out, with GL_OUT_OF_MEMORY. */
+static int is_lost_in_lists(const struct gls_state *st, const struct gls_command *k, const struct call *c)
+{
+	return k->role == GLS_ROLE_BITMAP && c->n_args && c->args[c->n_args - 1].type == TRACE_NULL &&
+	       !st->client.unpack.buffer && gls_is_mesa(st) && !(st->mesa & SCENE_MESA_KEEPS_BITMAPS);
+}
+
 int gls_exec_call(struct gls_exec *x, const struct call *c)
 {
 	const struct gls_command *k;
@@ -133,6 +141,10 @@ int gls_exec_call(struct gls_exec *x, const struct call *c)
 			return 0;
 		}
 		if (x->st->list && is_kept_in_lists(k->kind) && !is_recorders_own(k, c)) {
+			if (is_lost_in_lists(x->st, k, c)) {
+				gls_error(x, x->st, GL_OUT_OF_MEMORY);
+				return 0;
+			}
 			if (gls_list_append(x, x->st, c, (uint32_t)command))
 				return ERR_SYSTEM;
 			if (x->st->list_mode == GL_COMPILE)

@@ -41,6 +41,7 @@ enum gls_role {
 	GLS_ROLE_BIND_TEXTURE,
 	GLS_ROLE_CALL_LIST,
 	GLS_ROLE_MARKER, /* arguments: length, text */
+	GLS_ROLE_BITMAP,        /* last argument: its pixels */
 	GLS_ROLE_TRANSFORM,     /* changes only the current matrix, and never fails */
 	GLS_ROLE_PUSH_MATRIX, GLS_ROLE_POP_MATRIX,
 	GLS_ROLE_SELECT         /* selects another matrix or texture unit for later commands */

@@ -40,6 +40,21 @@ START_TEST(test_bitmaps)
 }
 END_TEST
 
+/* Bitmaps of no pixels at NULL in lists: left out with an error, or kept. */
+START_TEST(test_blanks)
+{
+	for (int i = 0; i < 2; i++) {
+		struct gl gl = open_by(markers[i]);
+
+		gl_call(&gl, "glNewList", "ue", 1u, GL_COMPILE);
+		gl_call(&gl, "glBitmap", "iiffffp", 0, 0, 0.0, 0.0, 10.0, 0.0, (uint64_t)0);
+		gl_call(&gl, "glEndList", "");
+		ck_assert_uint_eq(gl_error(&gl), i ? GL_NO_ERROR : GL_OUT_OF_MEMORY);
+		gl_close(&gl);
+	}
+}
+END_TEST
+
 /* Flat shading under an assembly program: by its own colours only; quads are split along the other diagonal if it
  * reads any. */
 START_TEST(test_flat_programs)
@@ -101,4 +116,4 @@ START_TEST(test_ycbcr)
 }
 END_TEST
 
-GL_TESTS("mesa", test_bitmaps, test_flat_programs, test_ycbcr)
+GL_TESTS("mesa", test_bitmaps, test_blanks, test_flat_programs, test_ycbcr)

@@ -15,7 +15,7 @@
 #include "replay/machine/machine.h"
 #include "replay/machine/picture.h"
 
-GLS_HANDLER(glBitmap, STATE)
+GLS_HANDLER(glBitmap, STATE, BITMAP)
 {
 	struct gls_pixels p = { .width = arg_u(c, 0), .height = arg_u(c, 1), .store = gls_client_store(x, st) };
 	float *at = st->a.current.raster_position;

@@ -146,6 +146,29 @@ static void light_bitmap(void)
 	glPopAttrib();
 }
 
+/* Bitmaps of no pixels between others, as the blanks of a font are: Mesa 22.3 loses those of lists at NULL. */
+static void call_blanks(void)
+{
+	static const GLubyte bits[8] = { 255, 129, 129, 129, 129, 129, 129, 255 };
+	const GLuint first = glGenLists(4);
+
+	for (unsigned i = 0; i < 4; i++) {
+		glRasterPos2f(4, 2 + 12 * (float)i);
+		glNewList(first + i, i == 2 ? GL_COMPILE_AND_EXECUTE : GL_COMPILE);
+		glBitmap(8, 8, 0, 0, 10, 0, bits);
+		glBitmap(0, 0, 0, 0, 10, 0, i ? NULL : bits);
+		if (i == 3)
+			glBitmap(0, 0, 0, 0, 5, 2, NULL);
+		glBitmap(8, 8, 0, 0, 10, 0, bits);
+		glEndList();
+		(void)glGetError();
+		glCallList(first + i);
+		glBitmap(0, 0, 0, 0, 3, 0, NULL);
+		glBitmap(8, 8, 0, 0, 10, 0, bits);
+	}
+	glDeleteLists(first, 4);
+}
+
 int main(void)
 {
 	static void (*const frames[])(void) = { mix_colors_of_quads,
@@ -156,7 +179,8 @@ int main(void)
 		                                pop_current_and_lights,
 		                                pop_enabled,
 		                                pop_all,
-		                                light_bitmap };
+		                                light_bitmap,
+		                                call_blanks };
 
 	open_window();
 	draw_frames(frames, sizeof(frames) / sizeof(frames[0]), begin_pixels);
