@@ -48,12 +48,12 @@ static void write_color(FILE *out, const char *name, const float c[4])
 	fprintf(out, ", %s %.3g %.3g %.3g", name, (double)c[0], (double)c[1], (double)c[2]);
 }
 
-/* A colour of a lit material, unless glColorMaterial takes it from the vertices (GL 2.1 sec. 2.14.3). */
+/* A colour of a lit material's front, unless glColorMaterial takes it from the vertices (GL 2.1 sec. 2.14.3). */
 static void write_part(FILE *out, const struct scene_material *m, const char *name, uint32_t mode, const float c[4])
 {
 	const int both = m->color_material_mode == GL_AMBIENT_AND_DIFFUSE && mode != GL_SPECULAR;
 
-	if (m->color_material && (both || m->color_material_mode == mode))
+	if (m->color_material && m->color_material != GL_BACK && (both || m->color_material_mode == mode))
 		fprintf(out, ", %s from the vertices", name);
 	else
 		write_color(out, name, c);

@@ -38,6 +38,10 @@ def check_surface(trace, scene, image, instance, found):
     check(all(f"texture {t['hash']}: " in rule and f"{t['target']} {t['base_format']}" in rule for t in textures),
           f"{what}: its textures: {rule}")
     check(("lit by" in rule) == bool(material["lighting"]), f"{what}: its material: {rule}")
+    mode = material["color_material"] in ("GL_FRONT", "GL_FRONT_AND_BACK") and material["color_material_mode"]
+    for part, modes in ("diffuse", ("GL_DIFFUSE", "GL_AMBIENT_AND_DIFFUSE")), ("specular", ("GL_SPECULAR", )):
+        check((f"{part} from the vertices" in rule) == bool(material["lighting"] and mode in modes),
+              f"{what}: its {part} colour: {rule}")
 
     file = SCRATCH / "rule.yaml"
     file.write_text(rule)

@@ -523,6 +523,11 @@ START_TEST(effects_within_their_range)
 	}
 	expect_failed(GATE_E3);
 	ck_assert_int_eq(state(GATE_E1), SCORE_PASSED);
+	options.ranges[1] = (struct score_range){ EFFECT_REFLECT, NAN, 0 };
+	expect_failed(GATE_E3);
+	ck_assert_double_eq(score.gates[GATE_E3].value[0], 2);
+	for (int k = 0; k < 2; k++) /* both are named */
+		ck_assert_ptr_nonnull(strstr(score.gates[GATE_E3].note, score_effect_names[options.ranges[k].effect]));
 }
 END_TEST
 
