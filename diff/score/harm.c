@@ -253,8 +253,7 @@ static int plane_at(const struct harm *h, uint32_t i, const float normal[3], flo
 		return 0;
 	subtract(h, u, i, a);
 	subtract(h, v, i, b);
-	for (int k = 0; k < 3; k++)
-		out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+	vec3f_cross(a, b, out);
 	length = sqrtf(vec3f_dot(out, out));
 	side = vec3f_dot(out, normal) < 0 ? -1.0f : 1.0f;
 	for (int k = 0; k < 3; k++)

@@ -58,8 +58,7 @@ static struct facet facet_of(const struct scene_mesh *mesh, uint32_t primitive, 
 	}
 	for (int i = 0; i < 3; i++)
 		f.angle[i] = acosf(fmaxf(-1, fminf(1, -vec3f_dot(edge[i], edge[(i + 2) % 3]))));
-	for (int k = 0; k < 3; k++)
-		f.normal[k] = edge[0][(k + 1) % 3] * edge[1][(k + 2) % 3] - edge[0][(k + 2) % 3] * edge[1][(k + 1) % 3];
+	vec3f_cross(edge[0], edge[1], f.normal);
 	normalize(f.normal);
 	sign = vec3f_dot(f.normal, corner_normal(mesh, first + 2)) < 0 ? -1 : 1;
 	for (int k = 0; k < 3; k++)

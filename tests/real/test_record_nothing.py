@@ -37,30 +37,31 @@ require_line("no display", 1, [
     "frames: nothing was recorded: the program loaded OpenGL and ended without calling it",
     "there is no display (DISPLAY and WAYLAND_DISPLAY are not set): 'xvfb-run -a relume record ...' makes one"
 ], PROGRAM, env=BARE)
-require_line("a display that is gone", 1, ["no X server answers at DISPLAY=:7171"], PROGRAM, env=dict(BARE, DISPLAY=":7171"))
-require_line("no OpenGL", 5, ["true: nothing was recorded: the program loaded no OpenGL (libGL, libEGL or libOSMesa)"], "true",
-     start=on_display)
+require_line("a display that is gone", 1, ["no X server answers at DISPLAY=:7171"], PROGRAM,
+             env=dict(BARE, DISPLAY=":7171"))
+require_line("no OpenGL", 5, ["true: nothing was recorded: the program loaded no OpenGL (libGL, libEGL or libOSMesa)"],
+             "true", start=on_display)
 require_line("no OpenGL, and a failure of its own", 7, ["loaded no OpenGL"], "sh", "-c", "exit 7", start=on_display)
 
 # Vulkan is recognised by the library's name.
 vulkan = built("libvulkan.so.1", "int nothing;\n", "-shared", "-fPIC")
 require_line("Vulkan", 5, ["the program draws with Vulkan, but Relume records OpenGL", "OpenGL renderer"],
-     sys.executable, "-c", f"import ctypes; ctypes.CDLL('{vulkan}')", start=on_display)
+             sys.executable, "-c", f"import ctypes; ctypes.CDLL('{vulkan}')", start=on_display)
 
 # Programs that the recorder cannot be loaded into.
 static = built("static", "int usleep(unsigned);\nint main(void)\n{\n\treturn usleep(700000);\n}\n", "-static")
 if static:
     require_line("a static program", 5,
-         ["static: nothing was recorded: the program is linked statically", "link it dynamically"], static)
-    require_line("one that a shell starts", 5, ["sh: nothing was recorded: process 'static' is linked statically"], "sh", "-c",
-         f"{static}; :")
+                 ["static: nothing was recorded: the program is linked statically", "link it dynamically"], static)
+    require_line("one that a shell starts", 5, ["sh: nothing was recorded: process 'static' is linked statically"],
+                 "sh", "-c", f"{static}; :")
 # 32 bits: the file's header suffices, since it is not started.
 head = b"\x7fELF\x01\x01\x01" + bytes(9) + struct.pack("<HHIIIIIHHHHHH", 2, 3, 1, 0, 52, 0, 0, 52, 32, 1, 0, 0, 0)
 (SCRATCH / "old").write_bytes(head + struct.pack("<IIIIIIII", 3, 84, 84, 84, 0, 0, 4, 1))
 (SCRATCH / "old").chmod(0o755)
 if not pathlib.Path(RELUME).with_name("lib").joinpath("i386-linux-gnu/librelume.so").exists():
     done = require_line("a program of 32 bits", 5, ["old: is a 32-bit program", "'make i386' builds the other one"],
-                SCRATCH / "old")
+                        SCRATCH / "old")
     check("ld.so" not in done.stderr, f"without the loader's message: {done.stderr}")
 # A cleared environment: by `env -i`, as with sudo and sandboxes.
 sleeper = built("sleeper", "int usleep(unsigned);\nint main(void)\n{\n\treturn usleep(700000);\n}\n")
