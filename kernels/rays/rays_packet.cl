@@ -243,10 +243,10 @@ WIDE_VECTORS INLINED void try_blocks(struct packet *p, struct found *found, int 
 					continue;
 				}
 				hit &= (t < p[k].t_max) | (primitive < found[k].primitive);
-				t_eye = t + found[k].shift;
-				hit &= (t_eye > found[k].after) | ((t_eye == found[k].after) & (primitive >= found[k].tie));
 				if (!any_pack(hit))
 					continue;
+				t_eye = t + found[k].shift;
+				hit &= (t_eye > found[k].after) | ((t_eye == found[k].after) & (primitive >= found[k].tie));
 				p[k].t_max = select(p[k].t_max, t, hit);
 				found[k].b1 = select(found[k].b1, b1, hit), found[k].b2 = select(found[k].b2, b2, hit);
 				found[k].primitive = select(found[k].primitive, primitive, hit);
